@@ -1,4 +1,4 @@
-"""What COPC costs beside LAZ: seconds, points a second, peak memory of `export`.
+"""Measures what COPC costs beside LAZ: seconds, points a second, peak memory of `export`.
 
 usage: copc_rate.py TOOL STORE     each kind three times in turn; the least time and its memory
 Prints a table of Markdown. Files go to a temporary folder beside STORE and away.

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a larger error buys, on one store: points, bytes, time against the picture of all points.
+"""Measures what a larger error buys, on one store: points, bytes, time against all points.
 
     Testing/Benchmarks/error_tradeoff.py TOOL STORE [WORK_FOLDER]
 

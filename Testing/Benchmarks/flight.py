@@ -25,7 +25,7 @@ import sys
 import tempfile
 
 MIB = 1 << 20
-ALLOWANCE = 64 * MIB  # what a process may hold beside its budgets and an empty scene
+ALLOWANCE = 64 * MIB  # held by a process beside its budgets and an empty scene
 
 
 def flight(bounds):

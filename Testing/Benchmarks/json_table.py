@@ -23,7 +23,7 @@ FIELD = re.compile(r"(?P<path>[\w.]+)(?:/(?P<divisor>[\d.e]+))?(?::(?P<format>.+
 
 
 def told_by(command, words):
-    """What the command says, run with these words."""
+    """Runs the command with these words and returns what it says."""
     with tempfile.TemporaryDirectory() as folder:
         file = pathlib.Path(folder) / "told.json"
         text = command.replace("{words}", words).replace("{json}", str(file))

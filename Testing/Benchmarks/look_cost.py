@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What light and eye-dome lighting by class cost (docs/adr/0041): prints a Markdown table.
+"""Measures light and eye-dome lighting by class (docs/adr/0041): prints a Markdown table.
 
     Testing/Benchmarks/look_cost.py TOOL WORK STORE
 

@@ -32,7 +32,7 @@ JPEG = re.compile(rb"\xff\xd8\xff")
 BACKGROUND = (23, 25, 31)
 POINTS = ["--technique", "points", "--point-size", "1"]
 ALL = [*POINTS, "--error", "0.01", "--point-budget", "1000000000", "--frame-ms", "10000"]
-FRAMES = 12  # of the rotation without a browser
+FRAMES = 12  # in the rotation without a browser
 FRAME_OF_JPEG = re.compile(rb"\xff[\xc0\xc2]\x00.\x08(..)(..)", re.DOTALL)  # height, width
 
 PEER = f"BACKGROUND = {BACKGROUND}" + """
@@ -91,7 +91,7 @@ def turn(page, seconds):
 
 
 def measure(browser, command, seconds, environment, picture):
-    """Of a server that prints its address: frames a second; median bytes, width and height."""
+    """Starts a server that prints its address: frames a second; median bytes, width and height."""
     server = subprocess.Popen(command, stdout=subprocess.PIPE, text=True, env=environment)
     try:
         address = None
@@ -118,7 +118,7 @@ def measure(browser, command, seconds, environment, picture):
         if not frames:
             sys.exit(f"{command[0]}: no picture within {FIRST_SECONDS:.0f} s")
         page.wait_for_timeout(4000)
-        turn(page, 2.0)  # what is needed only once
+        turn(page, 2.0)  # loads all that is needed only once
         page.wait_for_timeout(3000)
         frames.clear()
         turn(page, seconds)

@@ -107,7 +107,7 @@ async def measure(address, secret, arguments, targets):
             await viewer.call("trame.rca.size", [area, "", {"w": 1280, "h": 720, "p": 1}])
             press = {"type": "LeftButtonPress", "x": 400, "y": 300}
             await viewer.call("trame.rca.event", [area, "", press])
-            await viewer.turn(area, arguments.seconds)  # what is read only once
+            await viewer.turn(area, arguments.seconds)  # reads all that is read only once
             total = {name: 0 for name in targets}
             while min([total[name] for name in targets if name != "alone"]) < arguments.messages:
                 for name, target in targets.items():

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a cloud costs in ParaView: as a store with the plugin, and as PLY with ParaView's own means.
+"""Measures a cloud in ParaView: as a store with the plugin, as PLY with ParaView's own means.
 
     xvfb-run -a Testing/Benchmarks/paraview_cost.py --build build/paraview --work FOLDER CLOUD.laz
 

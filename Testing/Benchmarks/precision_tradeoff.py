@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a coarser precision saves, and the largest error it makes.
+"""Measures what a coarser precision saves, and the largest error it makes.
 
     Testing/Benchmarks/precision_tradeoff.py TOOL [POINTS] [WORK_FOLDER]
 

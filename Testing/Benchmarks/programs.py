@@ -5,7 +5,7 @@ import sys
 
 
 def call(*words):
-    """What a command prints; where it fails the benchmark ends, with what the command said."""
+    """Returns what a command prints; where it fails, the benchmark ends with what it said."""
     finished = subprocess.run([str(word) for word in words], capture_output=True, text=True,
                               check=False)
     if finished.returncode != 0:

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a frame of each technique costs: over the points, far and near, against VTK's mappers.
+"""Measures a frame of each technique: over the points, far and near, against VTK's mappers.
 
     xvfb-run -a Testing/Benchmarks/technique_cost.py --build build/release --work FOLDER STORE
 

@@ -33,11 +33,11 @@ HERE = pathlib.Path(__file__).resolve().parent
 PEERS = {"vtk-points": ("points", "1"), "vtk-gaussian": ("gaussian", "0.5"),
          "vtk-discs": ("discs", "0.85")}
 PAN_PX = 0.25  # for --flicker
-LEAST_DRAWN = 0.85  # of the points: some lie beside the picture, in nodes that are not drawn
+LEAST_DRAWN = 0.85  # a share of the points: nodes beside the picture are not drawn
 
 
 def run(*command):
-    """What the command prints; its complaints only if it fails."""
+    """Returns what the command prints; its complaints only if it fails."""
     finished = subprocess.run(list(map(str, command)), capture_output=True, check=False)
     if finished.returncode != 0:
         raise SystemExit(f"{shlex.join(map(str, command))}\n{finished.stderr.decode()}")
@@ -93,7 +93,7 @@ class Case:
         return ",".join(map(str, self.facts["background"]))
 
     def picture_of(self, technique, folder):
-        """What the technique draws from the camera of that folder."""
+        """Returns the technique's picture from the camera of that folder."""
         if technique == "oracle":
             return folder / "oracle.png"
         name = "".join(c if c.isalnum() else "_" for c in technique)

@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a picture does not show costs nothing: bytes and frame times with and without it.
+"""Measures that unseen attributes cost nothing: bytes and frame times with and without them.
 
     Testing/Benchmarks/unused_cost.py --build build/release --work FOLDER CLOUD.laz...
 
@@ -26,7 +26,7 @@ import numpy
 from programs import call
 
 ROUNDS = 7
-POINTS = 1_000_000  # of the made-up cloud with further attributes
+POINTS = 1_000_000  # in the made-up cloud with further attributes
 FURTHER = 20
 
 

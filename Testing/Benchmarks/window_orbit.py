@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""What a frame in motion costs through a VTK window: front, drawing, hand-over and swap.
+"""Measures a frame in motion through a VTK window: front, drawing, hand-over and swap.
 
     PYTHONPATH=build/release/lib/python3/dist-packages xvfb-run -a \\
       Testing/Benchmarks/window_orbit.py STORE [--frames 120] [--frame-ms 33] \\
@@ -94,7 +94,7 @@ def share(values, part):
 
 
 def cell(values, form):
-    """What the runs gave, from the least to the most."""
+    """Returns the runs' values, from the least to the most."""
     texts = [format(value, form) for value in sorted(values)]
     return texts[0] if texts[0] == texts[-1] else f"{texts[0]} to {texts[-1]}"
 

@@ -20,7 +20,7 @@ def rows(text):
 
 
 def faults(text, tests):
-    """What is wrong with the list, as sentences; `tests` are the names of all tests."""
+    """Yields what is wrong with the list, as sentences; `tests` are the names of all tests."""
     listed = list(rows(text))
     left_out = re.compile("|".join(pattern for pattern, _ in listed))
     for pattern, instead in listed:

@@ -48,6 +48,11 @@ class SourceFile:
         return self.ends(*SCRIPT) or self.folders[:1] in (["scripts"], [".ci"])
 
     @property
+    def is_python(self):
+        shebang = self.lines[0] if self.lines else ""
+        return self.ends(".py", ".pyi") or bool(re.match(r"#!.*\bpython", shebang))
+
+    @property
     def is_code(self):
         return self.is_cpp or self.is_shader or self.is_cmake or self.is_script
 

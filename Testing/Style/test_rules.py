@@ -98,6 +98,25 @@ class RulesTest(unittest.TestCase):
             [("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2), ("IO/LAS/C.glsl", 1)],
         )
 
+    def test_comment_subjects_of_scripts(self):
+        """Docstrings, comments of Python, CMake and shell; not text, nor lines that go on."""
+        python = ('"""Of\na module."""\nA = "# of text"  # of a\n\n\ndef f():\n'
+                  '    """What f does."""\n'
+                  "    # It is the end\n    # of a sentence.\n    return A  #: What A is\n")
+        tree = {
+            "scripts/a": "#!/usr/bin/python3\n" + python,
+            "x/b.py": python,
+            "x/CMakeLists.txt": "set(a \"# of text\") # of a\n# The end\n# of a sentence.\n",
+            "scripts/c": "#!/bin/sh\necho '# what' ${#of} # what c says\n\n# Of c.\necho\n",
+            "docs/a.md": "# Of a page\n",
+        }
+        lines = [1, 3, 7, 10]
+        self.assertEqual(
+            sorted(self.faults("CommentSubjects", tree)),
+            [*[("scripts/a", line + 1) for line in lines], ("scripts/c", 2), ("scripts/c", 4),
+             ("x/CMakeLists.txt", 1), *[("x/b.py", line) for line in lines]],
+        )
+
     def test_function_length(self):
         at = "  call();\n" * 57  # and a line of head and two of braces
         more = at + "  call();\n"
@@ -281,7 +300,7 @@ class RulesTest(unittest.TestCase):
         self.assertEqual(self.faults("KernelOrder", tree), [])
         for room, text in (
             ("Base", '#include "pointfront/Store/B.h"'),  # closes a circle
-            ("Store", '#include "pointfront/Style/C.h"'),  # of the same floor
+            ("Store", '#include "pointfront/Style/C.h"'),  # on the same floor
             ("Store", '#include "pointfront/Front/E.h"'),
             ("Front", '#include "B.h"'),
             ("Front", '#include "pointfront/Attic/B.h"'),

@@ -5,6 +5,8 @@ import re
 import shutil
 import subprocess
 
+from comments import beginnings
+
 FILE_LINES = 450
 FUNCTION_LINES = 60
 SHADER_LINES = 150
@@ -70,22 +72,15 @@ def line_length(files):
                 yield file.path, number, f"{len(line)} columns, at most {COLUMNS}"
 
 
-WITHOUT_SUBJECT = re.compile(r"(///?<?|//!<?)\s*(of|what)\b", re.IGNORECASE)
+WITHOUT_SUBJECT = re.compile(r"(of|what)\b", re.IGNORECASE)
 
 
 def comment_subjects(files):
-    """No comment of C++ or GLSL begins with "of" or "what": it names what it speaks of."""
+    """No comment or docstring begins with "of" or "what": it names what it speaks of."""
     for file in files:
-        if not (file.is_cpp or file.is_shader):
-            continue
-        goes_on = False
-        for (number, line), code in zip(file.numbered(), file.code_lines()):
-            code = code.rstrip()
-            comment = line[len(code):].strip()
-            alone = comment.startswith("//") and not code
-            if WITHOUT_SUBJECT.match(comment) and not (alone and goes_on):
+        for number, comment in beginnings(file):
+            if WITHOUT_SUBJECT.match(comment):
                 yield file.path, number, "a comment that begins with \"of\" or \"what\""
-            goes_on = alone
 
 
 NOT_A_FUNCTION = re.compile(

@@ -111,7 +111,7 @@ class SlowLine:
                     target.write(piece)
                     await target.drain()
             except OSError:
-                gone = True  # what comes after it is taken and dropped
+                gone = True  # all that comes after it is taken and dropped
 
 
 def main():

@@ -9,7 +9,7 @@ HEADER = 375
 
 
 class CopcFile:
-    """What the file says, and in `faults` what it must not say."""
+    """A COPC file: all that it says, and in `faults` what it must not say."""
 
     def __init__(self, path):
         with open(path, "rb") as file:

@@ -110,5 +110,5 @@ class Workplace:
 
 
 def shown_points(text):
-    """What `render` and `export` said they drew or wrote."""
+    """Returns how many points `render` and `export` said they drew or wrote."""
     return [int(number) for number in re.findall(r": (\d+) points\b", text)]

@@ -1,4 +1,4 @@
-"""What all random tests share: which seeds they take, and the smallest case that still fails.
+"""All random tests share this: which seeds they take, and the smallest case that still fails.
 
 Environment: POINTFRONT_RANDOM_FIRST the first seed (1), POINTFRONT_RANDOM_COUNT how many (40).
 """

@@ -25,7 +25,7 @@ OFFSETS = ([0.0, 0.0, 0.0], [637000.0, 851000.0, 400.0], [-4.0e6, 5.5e6, -100.0]
 
 
 def random_cloud(rng, most_points=8000):
-    """What make_cloud() takes."""
+    """Draws a random description of a cloud, which make_cloud() takes."""
     cloud = {"seed": rng.randrange(1 << 30), "points": rng.randint(most_points // 8, most_points),
              "shape": rng.choice(SHAPES), "scale": rng.choice(SCALES),
              "offset": rng.choice(OFFSETS), "classes": rng.choice((1, 2, 5, 30))}
@@ -62,7 +62,7 @@ def grid_positions(cloud, rng):
         grid[:, 2] = (200 * numpy.sin(grid[:, 0] / 500.0) + grid[:, 1] / 10).astype(int)
     copies = rng.integers(0, count, count // 20)
     grid[rng.integers(0, count, count // 20)] = grid[copies]
-    if "copies" in cloud:  # of each place
+    if "copies" in cloud:  # so many points have the same place
         grid = rng.permutation(numpy.resize(grid[:-(-count // cloud["copies"])], (count, 3)))
     return grid
 

@@ -76,7 +76,7 @@ class Points:
         return Points(records, self.scale, self.offset)
 
     def columns(self):
-        """Of PLY_TYPES, with made-up normals."""
+        """Writes PLY with the types of PLY_TYPES and made-up normals."""
         positions, records = self.positions(), self.records
         columns = dict(zip("xyz", positions.T))
         columns.update(zip(("red", "green", "blue"), records["rgb"].T))

@@ -23,7 +23,7 @@ from tool import DATA, TOOL, pointfront
 SIZE = (320, 240)
 BACKGROUND = (51, 26, 77)  # 0.2,0.1,0.3
 EVERYTHING = "0.01"  # pixels between points: all points of a cloud
-# What a case may be refused for. Any other end of the tool is a failure.
+# The tool may refuse a case for these reasons. Any other end of the tool is a failure.
 REFUSALS = ("no point", "has a point of these classes", "style.json")
 COPC = (DATA / "copc/1.2-with-color.copc.laz", DATA / "copc/ellipsoid_200k.copc.laz")
 
@@ -69,7 +69,7 @@ class Pair:
         raise NotImplementedError
 
     def choose(self, rng):
-        """What a case has besides style and camera."""
+        """Returns all that a case has besides style and camera."""
         return {"error": rng.choice((EVERYTHING, "1", "3"))}
 
     def take(self, number):
@@ -91,7 +91,7 @@ class Pair:
         return {**case, **self.choose(rng)}
 
     def styled(self, sheet):
-        """What is drawn of a random sheet."""
+        """Returns the sheet that is drawn in place of a random one."""
         return with_fixed_sizes(sheet, self.fixed_sizes) if self.fixed_sizes else sheet
 
     def pictures(self, case):
@@ -118,7 +118,7 @@ class Pair:
         return read_png(picture)
 
     def difference(self, case):
-        """What differs, in words; None where all is alike, or all ways refuse the case."""
+        """Says what differs; None where all is alike, or all ways refuse the case."""
         self.take(case["cloud"])
         case = {**case, "style": self.styled(case["style"])}
         ways = []
@@ -134,7 +134,7 @@ class Pair:
         return None
 
     def compared(self, usual, first, what, picture, case):
-        """What differs of two ways, each a name and a picture or Refused."""
+        """Says how two ways differ, each a name and a picture or Refused."""
         del case  # alike for all
         refusals = [one for one in (first, picture) if isinstance(one, Refused)]
         if refusals:
@@ -339,7 +339,7 @@ class Columns(Pair):
 class Moved(Alike):
     """A scene and its copy elsewhere: moved, and turned by quarters about the z axis."""
 
-    STEPS = (3000000, -70000000, 0)  # of a millimetre; heights keep their colours
+    STEPS = (3000000, -70000000, 0)  # in millimetres; heights keep their colours
 
     def make(self, number, rng):
         town = self.town(number)

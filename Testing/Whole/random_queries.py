@@ -11,7 +11,7 @@ import numpy
 
 from random_cases import chance
 
-# What a condition may ask about: a name, and how the user may write it.
+# A condition may ask about these: a name, and how the user may write it.
 NAMES = {"intensity": ("intensity", "Intensity"), "return_number": ("return_number",
          "return-number"), "classification": ("classification",), "user_data": ("USER_DATA",),
          "scan_angle": ("scan_angle",), "point_source_id": ("point_source_id",),

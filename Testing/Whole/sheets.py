@@ -1,4 +1,4 @@
-"""What pairs of pictures leave out of a random sheet of styles, so that they can agree."""
+"""Pairs of pictures leave parts out of a random sheet of styles, so that they can agree."""
 
 import json
 

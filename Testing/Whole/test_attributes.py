@@ -1,4 +1,4 @@
-"""What is computed between the inputs and the tree: normals and heights."""
+"""Attributes that are computed between the inputs and the tree: normals and heights."""
 
 import unittest
 

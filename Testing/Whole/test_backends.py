@@ -10,8 +10,8 @@ from pictures import read_png
 from scenes import SceneTest
 from tool import DATA
 
-TOLERANCE = 2  # of 255
-LEAST_ALIKE = 0.995  # of the pixels
+TOLERANCE = 2  # levels of 255
+LEAST_ALIKE = 0.995  # a share of the pixels
 SIZE = "400x300"
 # eye, focal point, half of the height of a parallel view
 CLOUDS = {
@@ -83,8 +83,8 @@ class Backends(SceneTest):
                 self.assertGreaterEqual(alike, LEAST_ALIKE, what)
 
     def test_pictures_without_a_point(self):
-        """Of clouds in place nobody knows before what their nodes have; of stores that points lie
-        beside the view, or meet two conditions apart."""
+        """Nobody knows before drawing what nodes of clouds in place have, nor that points of
+        stores lie beside the view, or meet two conditions apart."""
         las, png = self.folder / "points.las", self.folder / "x.png"
         shutil.copyfile(DATA / "las/real/autzen_trim.las", las)
         self.succeed("index", las)
@@ -96,7 +96,7 @@ class Backends(SceneTest):
         beside.write_text(json.dumps({
             "position": [*at[:2], at[2] + 10], "view_up": [0, 1, 0], "focal_point": at,
             "parallel_scale": 0.02}))
-        # What is translucent is there.
+        # Translucent points are there.
         style = self.folder / "style.json"
         style.write_text('{"default": {"opacity": 0.01}}')
 

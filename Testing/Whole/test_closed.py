@@ -9,7 +9,7 @@ from scenes import SceneTest
 from tool import DATA
 
 BACKGROUND = (255, 0, 255)
-MOST_OPEN = 0.02  # of what is drawn and the holes in it
+MOST_OPEN = 0.02  # a share of the drawn pixels and the holes in them
 CLOUDS = {
     "ahn3_261k.laz": ([131900, 549640, 60], [132150, 549800, 2]),
     "lidarhd_rgb_nir_698k.laz": ([484700, 6632650, 150], [484800, 6632800, 105]),
@@ -17,7 +17,7 @@ CLOUDS = {
 
 
 def enclosed(empty):
-    """Of the empty pixels those that no way of empty ones leads to from the picture's edge."""
+    """Returns the empty pixels that no way of empty ones leads to from the picture's edge."""
     outside = numpy.zeros_like(empty)
     outside[[0, -1]] = empty[[0, -1]]
     outside[:, [0, -1]] = empty[:, [0, -1]]

@@ -1,4 +1,4 @@
-"""What is exported comes back as it was and as its readers expect it; messages say what is so."""
+"""Exports come back as they were and as their readers expect them; messages say what is so."""
 
 import datetime
 import struct

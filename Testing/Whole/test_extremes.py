@@ -8,7 +8,7 @@ from tool import ToolTest, write_las
 
 
 class Rounding(ToolTest):
-    """What a build does to coordinates, it says."""
+    """A build says what it does to coordinates."""
 
     def text(self, name, rows):
         path = self.folder / name

@@ -16,7 +16,7 @@ SUFFIXES = (".las", ".laz", ".ply", ".pcd", ".txt", ".pts", ".ptx", ".xyz")
 # Points of real files that are no positions: what a scanner saw nothing in.
 REJECTED = {"pcd/office1.pcd": 52744, "text/complex-transform.ptx": 8}
 
-# What becomes of each broken file: an error that says this, or a store with so many points and a
+# Each broken file gives an error that says this, or a store with so many points and a
 # warning that says this (None: no warning).
 BROKEN = {
     "las/broken_real/1.2-with-color-clipped.las": (1064, "1 of 1065 points are missing"),
@@ -178,7 +178,7 @@ class BrokenFiles(ToolTest):
                 "build", DATA / name, "-o", store, "--force", "--on-error", "stop")
             self.assertEqual(refused.status, 1, refused)
             self.assertIn("get a whole copy", refused.err)
-        # What is said of its coordinate system is not what was lost: see the tests of that.
+        # Warnings of its coordinate system have tests of their own.
         warnings = [line for line in outcome.err.splitlines()
                     if "coordinate reference system" not in line and "longitudes" not in line]
         if lost is None:

@@ -99,7 +99,7 @@ class Points(LeftOutTest):
         said = self.fail_after_warnings("build", path, "-o", store)
         self.assertIn("precision", said)
         self.assertIn("1000 fits", said)
-        self.succeed("build", path, "-o", store, "--precision", "1000")  # what was chosen is done
+        self.succeed("build", path, "-o", store, "--precision", "1000")  # a chosen precision holds
         self.assertEqual(self.succeed("info", store, "--json").json["points"], 1001)
 
     def test_degrees_keep_their_digits_beside_heights(self):

@@ -1,4 +1,4 @@
-"""What neighbours of Debian read of our exports: LASzip, PCL and, where it is there, VTK.
+"""Programs of Debian read our exports: LASzip, PCL and, where it is there, VTK.
 
 Environment, beside that of tool.py: POINTFRONT_LASZIP the library, POINTFRONT_PCL_POINTS the
 program that reads PCD files with PCL.

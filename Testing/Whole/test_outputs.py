@@ -1,4 +1,4 @@
-"""What is written over, and what never is."""
+"""Some outputs may be written over; others never are."""
 
 import os
 import pathlib

@@ -20,7 +20,7 @@ from tool import DATA, SLOWNESS, TOOL, ToolTest
 COUNT = int(os.environ.get("POINTFRONT_RANDOM_COUNT", 6))
 FIRST = int(os.environ.get("POINTFRONT_RANDOM_FIRST", 1))
 TIMEOUT_S = 30 * SLOWNESS  # a run that takes longer hangs
-MEMORY = 4 << 30  # of address space: what a lying count may not ask for
+MEMORY = 4 << 30  # address space: a lying count may not ask for so much
 HEAD = 1200  # bytes in which headers lie
 EXTREME = [struct.pack(*value) for value in (
     ("<d", float("nan")), ("<d", float("inf")), ("<d", -1e308), ("<d", 1e50), ("<d", 0.0),

@@ -175,7 +175,7 @@ class RandomQueries(ToolTest):
 
 
 def between(cloud, surely, perhaps, got):
-    """What is wrong with the rows `got`."""
+    """Says what is wrong with the rows `got`."""
     if (surely == perhaps).all():
         return difference(cloud.rows(surely), got)
     mask = cloud.named_by(got)

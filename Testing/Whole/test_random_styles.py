@@ -14,11 +14,11 @@ from random_scenes import random_scene
 from scenes import SceneTest
 from tool import DATA, pointfront
 
-TOLERANCE = 2  # of 255
+TOLERANCE = 2  # levels of 255
 # Eye-dome lighting stronger than usual makes much of a thousandth of a pixel on discs seen edge-on.
 STRONG_TOLERANCE = 8
 USUAL_STRENGTH = 0.4
-LEAST_ALIKE = 0.995  # of the pixels
+LEAST_ALIKE = 0.995  # a share of the pixels
 SIZE = (320, 240)
 # OpenGL draws no point whose centre lies outside the view; the software back end draws its part
 # inside. Half of the largest fixed size of a random style.
@@ -45,7 +45,7 @@ FOUND_SEEDS = (1366, 1680)
 
 
 def strongest(value):
-    """Of all strengths of eye-dome lighting in a style or a part of it."""
+    """Returns the largest strength of eye-dome lighting in a style or in a piece of it."""
     if isinstance(value, list):
         return max(map(strongest, value), default=0.0)
     if not isinstance(value, dict):

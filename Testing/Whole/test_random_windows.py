@@ -126,7 +126,7 @@ class Windows(Threads):
         return self.windows[backend].pixels()
 
     def ways(self, case):
-        """Of a case that the tool draws."""
+        """Yields the windows that draw what the tool draws."""
         for backend in BACKENDS:
             yield f"window, {backend}", lambda backend=backend: self.whole(case, backend)
 
@@ -212,7 +212,7 @@ class Posters(Windows):
         return self.windows[backend].pixels(2)
 
     def styled(self, sheet):
-        """What can be halved."""
+        """Returns the sheet with sizes in pixels that can be halved."""
         sheet = super().styled(sheet)
         for highlight in sheet.get("highlight", ()):
             highlight["halo_px"] = 2 * (highlight.get("halo_px", 2) // 2)

@@ -129,7 +129,7 @@ class GoodServers(RemoteTest):
 
 
 class Cache(RemoteTest):
-    """What was fetched once lies on the disk."""
+    """Bytes that were fetched once lie on the disk."""
 
     def setUp(self):
         super().setUp()

@@ -1,5 +1,5 @@
-"""What render draws is what is in the store: clouds whose picture is known, pictures compared with
-each other, and what the tool says of them. For each back end: see scenes.py."""
+"""Pictures of render show what is in the store: clouds whose picture is known, pictures compared
+with each other, and what the tool says of them. For each back end: see scenes.py."""
 
 import csv
 import json
@@ -150,7 +150,7 @@ class ChosenClasses(SceneTest):
 
 
 class Styles(SceneTest):
-    """What the options become; how a sheet is read and resolved is tested beside it."""
+    """Options become a style sheet; how it is read and resolved is tested beside it."""
 
     def setUp(self):
         super().setUp()

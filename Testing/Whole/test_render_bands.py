@@ -1,4 +1,4 @@
-"""What render does where the picture does not fit into --memory: see scenes.py."""
+"""Pictures of render that do not fit into --memory: see scenes.py."""
 
 import json
 import signal

@@ -11,7 +11,7 @@ WITH_VTK = os.environ["POINTFRONT_WITH_VTK"] == "1"
 
 
 class Libraries(SceneTest):
-    """What is loaded into the process, as the dynamic linker tells it."""
+    """Returns the libraries loaded into the process, as the dynamic linker tells them."""
 
     FOREIGN = ("libGL", "libEGL", "libOSMesa", "libX11", "libxcb", "libvtk", "libGLX")
 

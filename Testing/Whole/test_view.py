@@ -127,7 +127,7 @@ class Walk(WindowTest):
 
 
 class Questions(ToolTest):
-    """Of points whose places in the picture are known: a grid, seen from above, 4 px a unit."""
+    """Points whose places in the picture are known: a grid, seen from above, 4 px a unit."""
 
     def setUp(self):
         super().setUp()
@@ -207,7 +207,7 @@ class Questions(ToolTest):
 
 
 class Styles(WindowTest):
-    """What a key changes is what an option of `render` asks for."""
+    """A key changes what an option of `render` asks for."""
 
     def setUp(self):
         ToolTest.setUp(self)

@@ -24,7 +24,7 @@ SLOWNESS = float(os.environ.get("POINTFRONT_SLOWNESS", "1"))
 
 
 class Outcome:
-    """What one run of a program gave."""
+    """The end of one run of a program: its status and what it printed."""
 
     def __init__(self, finished, seconds):
         self.status = finished.returncode

@@ -43,7 +43,7 @@ class Window:
         return self.lines.get(timeout=PATIENCE)
 
     def picture(self):
-        """What the window shows, complete."""
+        """Returns the picture that the window shows, complete."""
         self.hands.press("g")
         return read_png(self.folder / self.said())
 

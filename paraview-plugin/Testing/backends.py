@@ -37,7 +37,7 @@ scene.save(name + "-translucent")
 require(scene.frame()[1], "translucent points are not complete")
 scene.display.Opacity = 1
 
-# What looks at the pixels around one sees those of all ranks.
+# Techniques that look at the pixels around one see those of all ranks.
 for technique, error in (("points", 0.01), ("splats", 1), ("blended", 1)):
     scene.display.Technique, scene.display.TargetError = technique, error
     scene.display.ClosingSize = "All but points"

@@ -25,7 +25,7 @@ points, complete = scene.frame()
 require(complete and points == POINTS, "a still render in batch is complete: %d points" % points)
 scene.save_complete(name)
 
-# What is not a store is refused before a reader is made for it.
+# A file that is no store is refused before a reader is made for it.
 other = os.path.join(os.environ["POINTFRONT_OUTPUT"], "other.pfront")
 with open(other, "w") as file:
     file.write("not a point store")

@@ -35,7 +35,7 @@ require(list(scene.display.Classes.Available) == names,
         "listed: %s, in the store: %s" % (scene.display.Classes.Available, names))
 require(list(scene.display.Classes) == names, "shown at first: %s" % scene.display.Classes)
 
-# What is switched off is not drawn; and comes back.
+# A class that is switched off is not drawn; and comes back.
 for shown in (names[:1], names[1:], names):
     scene.display.Classes = shown
     wanted = sum(classes[name] for name in shown)

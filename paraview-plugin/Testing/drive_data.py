@@ -19,7 +19,7 @@ def facts(programs):
 
 
 def queries(programs):
-    """What queries select is what the tool exports for the same conditions."""
+    """Queries select what the tool exports for the same conditions."""
     rows = exported("all")
     height, intensity = rows[:, 2], rows[:, 3]
     middle = float(numpy.median(height))
@@ -49,7 +49,7 @@ def queries(programs):
 
 
 def refusals(programs):
-    """What is told of selections that cannot be had, on one process and on two."""
+    """Selections that cannot be had are told, on one process and on two."""
     with open("id.ply", "w") as ply:
         ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
                   "property double x\nproperty double y\nproperty double z\n"

@@ -72,7 +72,7 @@ def sparse_class():
 
 
 def backends(programs):
-    """Of each technique the same pictures on 1, 2 and 4 ranks, but for 0.1 % and two levels of 255.
+    """Each technique gives the same pictures on 1, 2, 4 ranks, but for 0.1 % and 2 levels of 255.
 
     Found: 0 of what ranks add up together.
     """

@@ -129,7 +129,7 @@ def state(programs):
 
 
 def first_hour(programs):
-    """What docs/user/paraview.md says, line by line; alone and on two ranks."""
+    """The program of docs/user/paraview.md, line by line; alone and on two ranks."""
     with open(os.path.join(HERE, "..", "..", "docs", "user", "paraview.md")) as file:
         chapter = file.read().split("## A first hour", 1)[1].split("\n## ", 1)[0]
     blocks = re.findall(r"```(sh|python)\n(.*?)```", chapter, re.DOTALL)

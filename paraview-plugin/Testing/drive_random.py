@@ -34,7 +34,7 @@ def town(number):
 def scene_of(seed, bounds):
     rng = random.Random(seed)
     sheet = random_sheet(rng, SIZE)
-    # What ParaView colours by is not what the tool takes where a style names nothing.
+    # ParaView colours by another attribute than the tool where a style names none.
     sheet["default"].setdefault("color", "rgb")
     camera = random_camera(rng, bounds)[1]
     return {"style": sheet, "camera": camera, "error": rng.choice(("0.01", "1", "3"))}

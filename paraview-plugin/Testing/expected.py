@@ -1,4 +1,4 @@
-"""What tests compare with: pictures, points that the tool exports, made-up clouds."""
+"""Tests compare with these: pictures, points that the tool exports, made-up clouds."""
 
 import json
 import os
@@ -34,7 +34,7 @@ def compare(one, other, share=SHARE, channel=CHANNEL, least=0.1):
 
 
 def exported(name, *conditions, store=None):
-    """What the tool exports of a store: rows of x, y, z and intensity, in order."""
+    """Returns what the tool exports of a store: rows of x, y, z and intensity, in order."""
     path = os.path.abspath(name + ".csv")
     tool("export", store or os.environ["POINTFRONT_STORE"], "-o", path, "--force", *conditions)
     table = numpy.genfromtxt(path, delimiter=",", names=True)

@@ -25,7 +25,7 @@ scene.view.ViewSize = SIZE
 
 
 def ranks_of(source):
-    """Of each rank: its points, and a function of the field data's arrays."""
+    """Returns, for each rank, its points and a function of the field data's arrays."""
     source.UpdatePipeline()
     for rank in range(RANKS):
         data = servermanager.Fetch(source, rank)
@@ -45,7 +45,7 @@ def points_of(source):
     return table[numpy.argsort(table[:, 4])]
 
 
-# What the filter suggests at first is the whole cloud, though its input is an overview of it.
+# The filter suggests the whole cloud at first, though its input is an overview of it.
 suggested = PointFrontExtract(Input=scene.reader)
 require(len(points_of(suggested)) == POINTS,
         "the suggested box has %d of %d points" % (len(points_of(suggested)), POINTS))
@@ -98,7 +98,7 @@ extract.Region = "Sphere"
 extract.Region.Center, extract.Region.Radius = sphere[:3], sphere[3]
 found["sphere"] = points_of(extract)
 
-# Of the view's frustum, by a selection through it.
+# Extracts the points of the view's frustum, by a selection through it.
 representations, sources = vtkCollection(), vtkCollection()
 scene.view.SMProxy.SelectFrustumPoints([390, 110, 470, 160], representations, sources, True)
 extract.UseRegion = 0
@@ -117,7 +117,7 @@ display.MapScalars = 0
 scene.look()
 scene.save(name)
 
-# What is no store has no points to extract.
+# An input that is no store has no points to extract.
 wrong = PointFrontExtract(Input=simple.MaskPoints(Input=scene.reader), UseRegion=0)
 wrong.UpdatePipeline()
 require(wrong.GetDataInformation().GetNumberOfPoints() == 0, "a filter's output is extracted from")

@@ -47,7 +47,7 @@ for array in ["elevation"] + [a.GetName() for a in reader.PointData.values()]:
     checked += 1
 require(checked >= 3, "%d attributes" % checked)
 
-# What the store is, in the properties of the reader.
+# The properties of the reader say what the store is.
 reader.UpdatePropertyInformation()
 facts = reader.SMProxy.GetProperty("StoreFacts").GetElement(0)
 print(facts)
@@ -72,7 +72,7 @@ def view():
             for name in ("PointsDrawn", "ProjectedSpacing", "LimitedBy")]
 
 
-# What the view has: all, the budget's part, and what comes of a coarser target.
+# The view has all, what the budget allows, and what a coarser target gives.
 points, error, limit = view()
 require(points == POINTS and error <= 0.01 and limit == "nothing", str((points, error)))
 told = display.SMProxy.GetProperty("PointsInView").GetElement(0)

@@ -104,7 +104,7 @@ require(points_of(opened("points.ply")) == 1000, "a PLY file of points")
 for name in ("stadium.laz", "points.xyz", "points.ply"):
     require("PointFrontFiles" in candidates(name), "%s: %s" % (name, candidates(name)))
 
-# What is read in place is not built.
+# A cloud that is read in place is not built.
 with open(at("list.pfronts"), "w") as listed:
     listed.write("stadium.laz.pfront\n")
 in_place = [at("list.pfronts")]

@@ -21,7 +21,7 @@ transform = simple.Transform(Input=scene.reader)
 transform.Transform.Translate = [50.0, 0.0, 0.0]
 masked = simple.MaskPoints(Input=scene.reader, OnRatio=2, MaximumNumberofPoints=10 ** 6)
 calculated = simple.Calculator(Input=scene.reader, ResultArrayName="intensity", Function="1")
-# Of filters that pass everything on, too: nobody knows that they do.
+# Filters that pass everything on count, too: nobody knows that they do.
 for source in (transform, masked, calculated, simple.Transform(Input=calculated)):
     name = source.GetXMLLabel()
     display = scene.show(source)

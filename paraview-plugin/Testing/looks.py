@@ -69,7 +69,7 @@ display.ClassStyles = []
 
 
 def widgets():
-    """What the panel says of quality."""
+    """Returns the panel's properties of quality."""
     return [display.Quality, display.Technique, display.TargetError, display.ClosingSize]
 
 
@@ -184,7 +184,7 @@ for backend in ("OpenGL", "Software"):
     require(pictures.differing(plain, found, 8) < 0.01, backend + " draws something else")
 display.Backend = "What is faster"
 
-# What is wrong is said once, and points are drawn as if it were not there.
+# A wrong property is told once, and points are drawn as if it were not there.
 display.Where = "no_such_attribute > 1"
 picture("wrong")
 picture("wrong")

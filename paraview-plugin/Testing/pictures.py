@@ -21,7 +21,7 @@ def load(path):
 
 
 def shown(view):
-    """What the window of a render view shows: as load(), without a further frame."""
+    """Returns the window of a render view: as load(), without a further frame."""
     grab = vtkWindowToImageFilter()
     grab.SetInput(view.SMProxy.GetRenderWindow())
     grab.ShouldRerenderOff()

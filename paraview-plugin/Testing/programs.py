@@ -49,7 +49,7 @@ class Programs:
     def start(self, *command, output=None):
         environment = dict(os.environ)
         environment["PYTHONPATH"] = os.pathsep.join([os.environ["POINTFRONT_PVPYTHONPATH"], HERE])
-        environment["PYTHONUNBUFFERED"] = "1"  # what is said, in the order in which it is said
+        environment["PYTHONUNBUFFERED"] = "1"  # lines come in their order
         for name in ("HOME", "XDG_CONFIG_HOME", "XDG_RUNTIME_DIR"):
             environment[name] = self.home
         program = subprocess.Popen(command, env=environment, start_new_session=True, stdout=output,
@@ -78,7 +78,7 @@ class Programs:
         return said
 
     def by_mouse(self, name):
-        """What NAME.json says after ParaView's application ran NAME.py and NAME.xml."""
+        """Returns what NAME.json says after ParaView's application ran NAME.py and NAME.xml."""
         script = os.path.join(HERE, name)
         self.run(os.environ["POINTFRONT_PARAVIEW"], "--dr", "--script=%s.py" % script,
                  "--test-script=%s.xml" % script, "--exit")

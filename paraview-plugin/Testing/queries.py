@@ -38,7 +38,7 @@ for query, wanted in known["wanted"].items():
         expected = POINTS - wanted if inside_out else wanted
         print(query, inside_out, points, expected)
         require(points == expected > 0, "%s selects %d points, not %d" % (query, points, expected))
-        # What the view marks, and inspectors list.
+        # The view marks these points, and inspectors list them.
         marked = reader.SMProxy.GetSelectionOutput(0)
         marked.UpdatePipeline()
         found = marked.GetDataInformation(0).GetNumberOfPoints()

@@ -24,9 +24,9 @@ from scene import POINTS, STORE, Scene, require
 
 SIZE = [320, 240]
 SLACK = 1.5  # pixels: a point is drawn two pixels wide, and its place is rounded
-# Of the points that a picture shows, those whose depths or places are equal but for the last bits.
+# At most this share of a picture's points has depths or places that only the last bits tell apart.
 DIFFERENT, FEW = 0.005, 3
-# What a query may name of its arrays: as ParaView's own functions.
+# A query may name these functions of its arrays, ParaView's own.
 FUNCTIONS = {"min": numpy.min, "max": numpy.max, "mean": numpy.mean, "abs": numpy.abs}
 
 scene = Scene()
@@ -126,7 +126,7 @@ def rectangle(rng):
 
 
 def polygon(rng):
-    """What its pixels show, but for those that its edges cross."""
+    """Selects in a polygon: its corners, the points surely in it, and those its edges may cut."""
     corners = [(rng.randrange(2, SIZE[0] - 2), rng.randrange(2, SIZE[1] - 2))
                for _ in range(rng.randint(3, 6))]
     simple.SelectSurfacePoints(Polygon=[c for corner in corners for c in corner], View=scene.view)

@@ -1,4 +1,4 @@
-"""What selections cannot give is an error, told once, on all ranks, and nobody waits for ever.
+"""A selection that cannot be had is an error, told once, on all ranks; nobody waits for ever.
 
 usage: pvbatch refusals.py STORE DAMAGED      on any number of processes. STORE has an attribute
 that is called "id"; DAMAGED has parts that cannot be read
@@ -57,7 +57,7 @@ settings = simple.GetSettingsProxy("PointFrontSettings")
 step("id")
 require(selected(reader, "(id == 7)") == POINTS // 10, "an attribute that is called id")
 
-# What is no query is an error, and the program goes on.
+# A malformed query is an error, and the program goes on.
 for name, query in (("malformed", "(id >"), ("no name", "(no_such_attribute > 1)")):
     step(name)
     require(selected(reader, query) == 0, "%s selects something" % query)

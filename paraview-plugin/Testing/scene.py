@@ -13,7 +13,7 @@ from paraview import simple
 SIZE = [640, 360]
 PLUGIN = os.environ["POINTFRONT_PLUGIN"]
 STORE = os.environ["POINTFRONT_STORE"]
-POINTS = int(os.environ["POINTFRONT_POINTS"])  # of the store, each to be drawn once
+POINTS = int(os.environ["POINTFRONT_POINTS"])  # in the store, each to be drawn once
 OUTPUT = os.environ["POINTFRONT_OUTPUT"]
 
 
@@ -100,7 +100,7 @@ class Scene:
         display.SetScalarBarVisibility(self.view, False)
 
     def frame(self, display=None):
-        """Of the last frame, of all processes together: points drawn, whether it is complete."""
+        """Returns of the last frame, over all processes: points drawn, whether it is complete."""
         proxy = (display or self.display).SMProxy
         proxy.UpdatePropertyInformation()
         return (proxy.GetProperty("PointsDrawn").GetElement(0),

@@ -35,7 +35,7 @@ PICKS = 200 if RANKS == 1 else 50
 # those of its own that lie on other ranks (docs/adr/0022).
 ONLY = os.environ.get("POINTFRONT_ONLY")
 COMPARED = 0 if ONLY else 50 if RANKS == 1 else 10 if len(sys.argv) > 1 else 0
-# Of the points that a picture shows, those that are not selected, or selected and not shown. Found:
+# A share of a picture's points: shown and not selected, or selected and not shown. Found:
 # 0.03 %, of points whose depths or places are equal but for the last bits of a double.
 DIFFERENT = 0.002
 # As DIFFERENT, for what ParaView itself selects where it draws all points: it also selects points
@@ -146,7 +146,7 @@ def check(found, rectangle, what):
 
 
 def extracted(selection=None, source=scene.reader):
-    """What "Extract Selection" makes of it; of the active selection, if there is no other."""
+    """Returns what "Extract Selection" makes of it, or of the active selection if None."""
     chosen = {"Selection": servermanager._getPyProxy(selection)} if selection else {}
     extract = simple.ExtractSelection(Input=source, **chosen)
     found = points_of(extract)
@@ -241,7 +241,7 @@ def check_modes():
 
 
 def check_shown_selection():
-    """What the view highlights and the spreadsheet lists: the selection set in ParaView."""
+    """The view highlights and the spreadsheet lists the selection set in ParaView."""
     rectangle = [200, 100, 420, 220]
     selection = select(rectangle)
     scene.reader.SMProxy.SetSelectionInput(0, selection, 0)
@@ -349,7 +349,7 @@ def check_picks():
 
 
 def check_tooltip():
-    """What ParaView shows of the point under the mouse."""
+    """ParaView shows the attributes of the point under the mouse."""
     found = extracted(select([300, 150, 340, 180]))
     pixel = [int(round(c)) for c in pixels(found[0][:1])[0]]
     selection = select(pixel + pixel)

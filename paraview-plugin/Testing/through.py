@@ -70,7 +70,7 @@ generator = random.Random(1)
 total = 0
 for number in range(12):
     look(parallel=number % 2)
-    # Of two metres at least: ParaView looks in 32 bits for what lies in a frustum at all.
+    # It has two metres at least: ParaView looks in 32 bits for what lies in a frustum at all.
     left, low = generator.randrange(0, SIZE[0] - 350), generator.randrange(0, SIZE[1] - 260)
     area = [left, low, left + generator.randrange(200, 340), low + generator.randrange(200, 250)]
     simple.SetActiveSource(scene.reader)

@@ -2,7 +2,7 @@
 
 import numpy
 
-_OWN = ("position", "id")  # of Cloud.points: places and ranks, which are no attributes
+_OWN = ("position", "id")  # Cloud.points adds them: they are no attributes
 _MOST_COMPONENTS = 16
 
 

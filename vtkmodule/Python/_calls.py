@@ -8,7 +8,7 @@ from ._errors import PointFrontError, did_you_mean, warn
 
 
 class BuildReport:
-    """What a build did.
+    """The outcome of a build.
 
     path            the store that was written
     points_read     points of all inputs
@@ -65,7 +65,7 @@ def _depth(bits):
     return int(bits)
 
 
-# What pointfront.build() takes besides its named arguments, and what makes a value plain.
+# Options that pointfront.build() takes besides its named arguments, and what makes a value plain.
 _OPTIONS = {
     "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool, "memory_limit": _count,
     "number_of_threads": _count, "temporary_folder": os.fspath, "node_points": _count,

@@ -1,4 +1,4 @@
-"""What a page shows over its picture: choices, a legend, the classes, a point, a measure."""
+"""Controls over the picture of a page: choices, a legend, the classes, a point, a measure."""
 
 import json
 import math
@@ -10,9 +10,9 @@ from ._pictures import run_tool
 TECHNIQUES = ("splats", "points", "spheres", "ewa")
 POINT_SIZES = ("1", "2", "3", "4", "6", "8", "12")
 TOOLS = ("", "pick", "measure")
-# What clients may change of the page's state; all else they say is let go.
+# Clients may change these entries of the page's state; all else they say is let go.
 CHOSEN_BY_CLIENTS = ("colour", "technique", "point_size", "tool")
-SAMPLE_STEPS = 100  # of a cloud's longest edge, between points that are asked for their class
+SAMPLE_STEPS = 100  # along a cloud's longest edge, between points that are asked for their class
 TOGGLE = "pointfront_toggle_class"  # a trigger of trame's
 CLEAR = "pointfront_clear_marks"
 
@@ -70,7 +70,7 @@ OVERLAY = f"""
 
 
 def colours_of(path):
-    """What the first store can be coloured by."""
+    """Returns the attributes that the first store can be coloured by."""
     names = [a["name"] for a in json.loads(run_tool(["info", "--json", path]))["attributes"]]
     computed = ["elevation"] + (["horizontality"] if "normal" in names else [])
     return names + [name for name in computed if name not in names]
@@ -108,7 +108,7 @@ def _number(value):
 
 
 def legend_state(legend):
-    """What the page shows of what `stream` says; None: nothing, as for rgb."""
+    """Returns the page's legend from what `stream` says; None: no legend, as for rgb."""
     if not legend:
         return None
     if legend["attribute"] == "classification":
@@ -140,7 +140,7 @@ class Classes:
         return True
 
     def state(self, legend):
-        """What the page shows; of one class nothing."""
+        """Returns the switches that the page shows; none where there is one class."""
         if len(self._names) < 2:
             return []
         colours = {}

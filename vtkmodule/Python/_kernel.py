@@ -130,7 +130,7 @@ class _Call:
 
 
 def call(function, progress, stopped):
-    """What function(report) gives, while `progress` is told how far it is.
+    """Returns what function(report) gives, while `progress` is told how far it is.
 
     stopped  what a PointFrontError says if `progress` ends it
     """
@@ -147,7 +147,7 @@ def call(function, progress, stopped):
 
 
 class _Memory:
-    """What the kernel gave, as an array without a copy; freed with its last view."""
+    """Returns the kernel's memory as an array without a copy; freed with its last view."""
 
     def __init__(self, address, shape, dtype):
         self._address = address
@@ -224,7 +224,7 @@ def build(request, arrays, progress):
 
 
 def class_names():
-    """Of the classes 0 to 255."""
+    """Returns the names of the classes 0 to 255."""
     return _answer(_library.pointfrontClassNames())
 
 

@@ -1,4 +1,4 @@
-"""What passes between the server of a page and those who look: bounded, and one line for each."""
+"""Messages between the server of a page and those who look: bounded, one line for each."""
 
 import asyncio
 import collections
@@ -9,7 +9,7 @@ from wslink.chunking import HEADER_LENGTH, UnChunker, generate_chunks
 
 FRAMES = "publish:trame.rca.topic.stream:"  # how the ids of frames begin
 LARGEST_MESSAGE = 1 << 16  # bytes, of a client: events of a mouse, a choice
-MESSAGES_IN_PARTS = 4  # of a client, at a time
+MESSAGES_IN_PARTS = 4  # from a client, at a time
 LARGEST_BACKLOG = 1 << 22  # bytes for a client that does not take them, frames besides
 PATIENCE_SECONDS = 20.0  # with one that takes nothing
 PART = 1 << 20  # bytes of what is sent at a time
@@ -160,7 +160,7 @@ class Lines:
             if not is_binary:
                 raise ValueError("a text")
             await self._onMessage(is_binary, message, client)
-        except Exception as problem:  # of what it sent: it is told by the end of its line
+        except Exception as problem:  # its message is at fault: the end of its line tells it
             logging.getLogger("pointfront").info("a client sent what is no message: %r", problem)
             await self._handler.connections[client].close(code=1007)
 
@@ -191,7 +191,7 @@ class Lines:
 
 
 class Escaped(logging.Filter):
-    """What clients sent is logged as Python writes strings: it moves no cursor of a terminal."""
+    """Clients' words are logged as Python writes strings: they move no cursor of a terminal."""
 
     def filter(self, record):
         text = record.getMessage()

@@ -5,7 +5,7 @@ import math
 import numpy
 
 _HIGHEST = math.pi / 2  # elevation
-_LEAST_DISTANCE = 1e-9  # of the coordinates: the eye and what it looks at stay apart
+_LEAST_DISTANCE = 1e-9  # a share of the coordinates: the eye and its focal point stay apart
 
 
 class OrbitCamera:
@@ -49,7 +49,7 @@ class OrbitCamera:
         return 2.0 * self.distance * math.tan(math.radians(self.view_angle) / 2.0)
 
     def pan(self, right, up):
-        """What lies at the focal point's depth follows the mouse."""
+        """Points at the focal point's depth follow the mouse."""
         to_the_right, upwards, _ = self.axes()
         self.focal_point -= self._height() * (right * to_the_right + up * upwards)
 

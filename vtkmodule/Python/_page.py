@@ -32,7 +32,7 @@ _STATUS = ("position:absolute; left:8px; bottom:8px; font:12px sans-serif; color
            "pointer-events:none;")
 _OVER = "position:absolute; inset:0; pointer-events:none;"
 _WHOLE = ("position:absolute; inset:0; overflow:hidden; background:#17191f;")
-# Of another client's size: all of it, not stretched.
+# A picture of another client's size is shown whole, not stretched.
 _WHOLE_PICTURE = "{width: '100%', height: '100%', display: 'block', objectFit: 'contain'}"
 _count = itertools.count(1)
 
@@ -91,7 +91,7 @@ class CloudPage:
 
     def __init__(self, paths, arguments=None):
         self._options = dict(arguments or {})
-        self._camera = None  # of the last frame
+        self._camera = None  # that of the last frame
         if "style" not in self._options and "quality" not in self._options:  # they choose their own
             self._options.setdefault("technique", TECHNIQUES[0])
         self._classes = Classes(paths)
@@ -159,7 +159,7 @@ class CloudPage:
 
     @property
     def query(self):
-        """What an address of this page ends with, behind '?'."""
+        """Returns what an address of this page ends with, behind '?'."""
         return self._doors.query
 
     def _forget(self, client):
@@ -175,7 +175,7 @@ class CloudPage:
         return words
 
     def _choose(self, colour, technique, point_size, **_):
-        known = self._options.values()  # of the start, too, which the page may not offer
+        known = self._options.values()  # the start's, too, which the page may not offer
         for chosen, offered in ((colour, self._colours), (technique, TECHNIQUES),
                                 (point_size, POINT_SIZES)):
             if chosen and chosen not in offered and chosen not in known:
@@ -210,7 +210,7 @@ class CloudPage:
         self._show_marks(None)
 
     def _take(self, point):
-        """What was clicked."""
+        """Takes what was clicked."""
         with self.server.state as state:
             self._marks.take(point, state.tool)
             self._show_marks(self._camera)
@@ -271,8 +271,7 @@ def view_of_cell(paths, height):
 
 
 def _running_cell():
-    """What tells a cell from others, and its runs from each other: the name that JupyterLab gives
-    it; without one, its text.
+    """Returns a cell's key and its run's: the name that JupyterLab gives it; without one, its text.
     """
     from IPython import get_ipython
 
@@ -328,7 +327,7 @@ class NotebookView:
 
     @property
     def url(self):
-        """Of the page, as this machine sees it."""
+        """The page's address, as this machine sees it."""
         return f"http://localhost:{self._page.server.port}/index.html?{self._page.query}"
 
     def _repr_html_(self):

@@ -70,7 +70,7 @@ def _rows_of(png):
 
 
 def run_tool(arguments, heard=None):
-    """What the tool prints. Raises PointFrontError with what it says; Ctrl-C ends it, too.
+    """Returns what the tool prints. Raises PointFrontError with what it says; Ctrl-C ends it, too.
 
     heard  called with what it says while it succeeds
     """
@@ -103,7 +103,7 @@ def export(path, output, options):
 
 
 def _flags(options, folder=None):
-    """Of the command line; a dictionary becomes a JSON file in `folder`."""
+    """Returns the words of the command line; a dictionary becomes a JSON file in `folder`."""
     words = []
     for name, value in options.items():
         if value is None or value is False:

@@ -49,7 +49,7 @@ def _colour(mapper, plotter, scalars, cmap, clim):
         if scalars == "rgb" and "rgb" not in overview.point_data:
             raise PointFrontError("the cloud has no attribute 'rgb'")
         return False
-    # What the mapper computes itself is in no array of the overview.
+    # The overview has no array of what the mapper computes itself.
     computed = {"horizontality": (0.0, 1.0), "global_height": (0.0, 1.0)}
     if name in overview.point_data:
         values = overview.point_data[name]

@@ -23,7 +23,7 @@ class Watch:
         self._event = event
         self._raised = []
         self._bar = None
-        self._before = None  # what SIGINT did
+        self._before = None  # the handler of SIGINT that was there
         self._observer = None
         if progress is True:
             self._bar = _bar()

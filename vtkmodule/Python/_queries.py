@@ -10,7 +10,7 @@ _MOST = (1 << 63) - 1  # points
 _SixNumbers = ctypes.c_double * 6  # types that are made anew would wait for the collector
 _FourNumbers = ctypes.c_double * 4
 _ARRAYS_OWN = ("position", "id")
-# Of Conditions.arrays; what else vtkPointFrontExtract knows takes objects of VTK.
+# Options of Conditions.arrays; others of vtkPointFrontExtract take objects of VTK.
 KERNEL_OPTIONS = frozenset(
     ("line_distance", "maximum_number_of_points", "memory_limit", "colors_as_stored"))
 
@@ -57,7 +57,7 @@ def _text(text):
 
 
 class Conditions:
-    """What Cloud.points, chunks and extract take: a point must meet all that are there.
+    """Conditions of Cloud.points, chunks and extract: a point must meet all that are there.
 
     box, sphere  lists of 6 and 4 numbers, or None
     classes      numbers; []: all

@@ -13,16 +13,16 @@ from ._orbit import OrbitCamera
 from ._stream import FrameStream
 
 REST_SECONDS = 0.2  # without an event: the view is refined
-MOVING_QUALITY = 60  # of JPEG
+MOVING_QUALITY = 60  # as JPEG counts it
 RESTING_QUALITY = 90
-FRAME_MS = 66.7  # of the tool, unless --frame-ms says otherwise
-SLOW = 0.75  # of that time: a frame in motion that takes longer makes the next motion's smaller
+FRAME_MS = 66.7  # the tool's, unless --frame-ms says otherwise
+SLOW = 0.75  # times FRAME_MS: a frame in motion that takes longer makes the next motion's smaller
 FAST = 0.375
 VIEWS = ("iso", "top", "front", "back", "left", "right")
-SCALES = (1.0, 0.75, 0.5)  # of the size, in motion
+SCALES = (1.0, 0.75, 0.5)  # shares of the size, in motion
 LARGEST_EDGE = 4096  # pixels
 WAIT_MS = 50  # for what the disk gives; an event waits as long at most
-MOST_TURNS = 50.0  # of a wheel in one event
+MOST_TURNS = 50.0  # the wheel's in one event
 SENT_AT_ONCE = 1  # frames that a slow line may be behind
 STILL_PIXELS = 4  # a mouse that moved no farther while it was pressed has clicked
 
@@ -81,10 +81,10 @@ class RemoteView:
         self._push = None
         self._pending = lambda: 0
         self._size = (1280, 720)
-        self._sizes = {}  # of each client
+        self._sizes = {}  # each client's
         self._leading = None  # the client whose size pictures have: that which moved last
         self._scale = 0  # which of SCALES
-        self._seconds = []  # of the frames of this motion
+        self._seconds = []  # one for each frame of this motion
         self._frame_seconds = _frame_seconds(self._arguments)
         self._orbit = None
         self._view = "iso"  # to be taken, instead of the camera
@@ -99,7 +99,7 @@ class RemoteView:
         self._task = None
         self._drawing = concurrent.futures.ThreadPoolExecutor(1, "pointfront-frames")
         try:
-            # What is wrong is said here, not in the browser.
+            # An error is told here, not in the browser.
             self.legend = self._stream.frame(size=(16, 9), legend=True).facts["legend"]
         except PointFrontError:
             self._end_stream()
@@ -140,7 +140,7 @@ class RemoteView:
         raise PointFrontError("frames are pushed: none can be asked for")
 
     def process_resize_event(self, width, height, client=None):
-        """Of a client's window. Who only looks sees the whole picture of who moves."""
+        """Takes the size of a client's window. Who only looks sees all of who moves."""
         largest = max(width, height)
         scale = min(1.0, LARGEST_EDGE / largest)
         self._sizes[client] = (max(1, int(width * scale)), max(1, int(height * scale)))
@@ -211,7 +211,7 @@ class RemoteView:
         self._orbit.zoom(factor, *off)
         self._moved = time.monotonic()
 
-    # What the page asks for
+    # The methods below do what the page asks for.
     def look(self, view):
         """From "iso", "top", "front", "back", "left" or "right", at all of the cloud."""
         if view in VIEWS:

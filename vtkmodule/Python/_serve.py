@@ -7,7 +7,7 @@ import sys
 
 from ._errors import PointFrontError
 
-# Of `pointfront render`, and what argparse shows for their values.
+# Options of `pointfront render`, and what argparse shows for their values.
 VALUES = {"color-by": "ATTRIBUTE", "technique": "NAME", "style": "FILE.json", "classes": "LIST",
           "where": "CONDITION", "error": "PX", "point-size": "PX", "point-budget": "N",
           "memory": "BYTES", "background": "R,G,B", "quality": "NAME", "frame-ms": "MS"}

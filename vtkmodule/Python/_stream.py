@@ -69,7 +69,7 @@ class FrameStream:
         except (OSError, ValueError) as problem:
             try:
                 self._tool.stdin.close()  # it ends, if it has not
-            except OSError:  # what it did not take is written again here, and not taken either
+            except OSError:  # the rest is written again here, and not taken either
                 pass
             raise PointFrontError(self._complaint() or str(problem)) from None
         if facts is None or len(data) < facts["bytes"]:
@@ -92,5 +92,5 @@ class FrameStream:
         for file in (self._tool.stdin, self._tool.stdout, self._said):
             try:
                 file.close()
-            except OSError:  # what was not sent is of no interest any more
+            except OSError:  # the unsent rest is of no interest any more
                 pass

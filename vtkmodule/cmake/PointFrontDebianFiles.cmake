@@ -13,7 +13,7 @@ foreach (page IN LISTS changes)
   execute_process(COMMAND gzip -9nf "${folder}/changelog" COMMAND_ERROR_IS_FATAL ANY)
 endforeach ()
 
-# What the plugin's package installs lies outside of /usr/share, but for this.
+# The plugin's package installs outside of /usr/share, but for this.
 file(GLOB plugins LIST_DIRECTORIES TRUE "${CPACK_TEMPORARY_DIRECTORY}/usr/lib/paraview-pointfront"
   "${CPACK_TEMPORARY_DIRECTORY}/*/usr/lib/paraview-pointfront")
 foreach (plugin IN LISTS plugins)

@@ -107,7 +107,7 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   endif ()
 endif ()
 
-# What a wheel has besides: its command, and PROJ's coordinate systems, which no system gives it.
+# A wheel has these besides: its command, and PROJ's coordinate systems, which no system gives it.
 if (POINTFRONT_WHEEL)
   install(FILES "${CMAKE_CURRENT_SOURCE_DIR}/vtkmodule/Python/pointfront_tool.py" DESTINATION "."
     COMPONENT Runtime)

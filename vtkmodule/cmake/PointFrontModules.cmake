@@ -17,7 +17,7 @@ vtk_module_scan(
   REQUIRES_MODULES pointfront_required_modules
   WANT_BY_DEFAULT ON
   ENABLE_TESTS OFF)
-# What VTK's own build gives to its modules and its package does not give to ours: the header that
+# VTK's own build gives its modules a header that its package does not give to ours: the one that
 # the Module.h of a module with implementations elsewhere includes.
 set_property(GLOBAL PROPERTY _vtk_module_autoinit_include "\"vtkAutoInit.h\"")
 vtk_module_build(

@@ -1,4 +1,4 @@
-# What can be chosen, and what holds for every target.
+# Options that a build chooses, and settings that hold for every target.
 
 set(POINTFRONT_HOST "VTK" CACHE STRING
   "What the modules are built into: NONE (kernel and tool only), VTK or ParaView")
@@ -107,7 +107,7 @@ function (pointfront_compile_by_folder target)
       AND NOT ("TESTS" IN_LIST ARGN AND POINTFRONT_COMPILE_TESTS_BY_FOLDER))
     return ()
   endif ()
-  get_target_property(aliased ${target} ALIASED_TARGET) # what VTK calls a module's own target
+  get_target_property(aliased ${target} ALIASED_TARGET) # VTK's name of a module's own target
   if (aliased)                                          # changed in 9.4
     set(target ${aliased})
   endif ()

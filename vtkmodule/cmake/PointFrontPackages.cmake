@@ -33,7 +33,7 @@ if (POINTFRONT_NORMALS)
   find_package(Eigen3 REQUIRED NO_MODULE)      # Eigen3::Eigen
   find_path(POINTFRONT_FLANN_INCLUDE flann/flann.hpp REQUIRED) # its headers only
   find_package(PkgConfig REQUIRED)
-  pkg_check_modules(POINTFRONT_LZ4 REQUIRED IMPORTED_TARGET liblz4) # what FLANN's headers call
+  pkg_check_modules(POINTFRONT_LZ4 REQUIRED IMPORTED_TARGET liblz4) # FLANN's headers call it
 endif ()
 
 # VTK first: a find_package(Python3) before it would find another Python than VTK's.

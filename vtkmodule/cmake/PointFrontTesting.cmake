@@ -1,4 +1,4 @@
-# What every test of the project shares: where data are, how a test is named, where it draws.
+# Every test of the project shares this: where data are, how a test is named, where it draws.
 
 set(POINTFRONT_SHARED_DATA "${CMAKE_SOURCE_DIR}/../shared/data" CACHE PATH
   "The folder of public test clouds; tests that read it are left out without it")

@@ -143,7 +143,7 @@ class Environment:
         self.run("python", "-m", "pip", "install", "-q", "--disable-pip-version-check", *what)
 
     def said_of_classes(self):
-        """What an import of a VTK class says that cannot be had."""
+        """Returns what an import of a VTK class says that cannot be had."""
         run = subprocess.run(["python", "-c", "from pointfront import vtkPointFrontReader"],
                              cwd=self._folder, env=self._variables, capture_output=True, text=True)
         assert run.returncode == 1, run

@@ -51,7 +51,7 @@ def execute(notebook, folder):
 
 
 def outputs(notebook):
-    """What cells gave: texts, and pictures as text."""
+    """Returns what cells gave: texts, and pictures as text."""
     found = []
     for number, cell in enumerate(notebook.cells):
         for output in cell.get("outputs", []):

@@ -298,7 +298,7 @@ class Package(unittest.TestCase):
             cloud.points()
             whole = time.monotonic() - begin
             shares = []
-            while not shares or (min(shares) > 0.7 and len(shares) < 5):  # of a busy machine
+            while not shares or (min(shares) > 0.7 and len(shares) < 5):  # a machine may be busy
                 timer = threading.Timer(0.3 * whole, os.kill, (os.getpid(), signal.SIGINT))
                 timer.start()
                 begin = time.monotonic()

@@ -221,7 +221,7 @@ class Page(InBrowser):
 
 @unittest.skipUnless(LARGE.exists(), f"there is no {LARGE}")
 class LargePage(InBrowser):
-    """Of ten million points: what a user waits for. Limits leave room for a busy machine."""
+    """A user waits for ten million points. Limits leave room for a busy machine."""
 
     cloud = LARGE
 
@@ -246,7 +246,7 @@ class LargePage(InBrowser):
         page = self.open(server.url, 1280, 720)
         opened = time.monotonic() - begin
         first = self.pixels(page)
-        self.turn(page, 1.0)  # what is read only once
+        self.turn(page, 1.0)  # reads all that is read only once
         rate = self.turn(page, 4.0)
         begin = time.monotonic()
         page.wait_for_function(f"document.querySelector('{SETTLED}') !== null", timeout=LIMIT_MS)

@@ -1,4 +1,4 @@
-"""What the page shows over its picture, in a real browser: classes, legend, sizes, points,
+"""Controls over the page's picture, in a real browser: classes, legend, sizes, points,
 measures, a bar while it loads, and a connection that comes back. Environment as for test_page.py.
 """
 
@@ -16,8 +16,8 @@ import numpy
 import pointfront
 from page_trial import CLOUD, LIMIT_MS, InBrowser, Server
 
-TOLERANCE = 0.002  # of numbers that are shown with three digits
-SEEN = (slice(None), slice(0, 600))  # of the picture, beside the switches
+TOLERANCE = 0.002  # for numbers that are shown with three digits
+SEEN = (slice(None), slice(0, 600))  # pixels beside the switches
 
 
 class Wire:

@@ -44,7 +44,7 @@ def in_loop(work):
 
 
 async def ask(socket, call, method, arguments):
-    """What a server's socket answers to a call."""
+    """Returns what a server's socket answers to a call."""
     message = msgpack.packb({"wslink": "1.0", "id": call, "method": method, "args": arguments,
                              "kwargs": {}})
     for chunk in generate_chunks(message, 0):
@@ -58,7 +58,7 @@ async def ask(socket, call, method, arguments):
 
 
 async def greet(address, secret):
-    """What a server answers to a greeting, and to a question for the whole state."""
+    """Returns what a server answers to a greeting, and to a question for the whole state."""
     async with aiohttp.ClientSession() as session:
         async with session.ws_connect(address) as socket:
             return [await ask(socket, "system:c0:0", "wslink.hello", [{"secret": secret}]),
@@ -144,7 +144,7 @@ async def say_nothing(host, port, count):
 
 
 def speak_slowly(url, seconds):
-    """What a server answers to an honest request whose head takes so long."""
+    """Returns what a server answers to an honest request whose head takes so long."""
     address = urllib.parse.urlsplit(url)
     head = (f"GET /index.html?{address.query} HTTP/1.1\r\nHost: {address.netloc}\r\n"
             "Connection: close\r\n\r\n").encode()

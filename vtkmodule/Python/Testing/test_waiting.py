@@ -1,4 +1,4 @@
-"""What a user waits for: a window until it is closed, a bar, Ctrl-C; and the memory of arrays."""
+"""A user waits: for a window until it is closed, with a bar, with Ctrl-C; memory of arrays."""
 
 import os
 import pathlib

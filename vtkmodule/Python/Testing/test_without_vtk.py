@@ -1,4 +1,4 @@
-"""What needs no VTK, where there is none: stores, arrays, files, pictures. And what says so."""
+"""Where VTK is missing, stores, arrays, files and pictures work; all else says so."""
 
 import pathlib
 import shutil

@@ -52,7 +52,7 @@ assert builder.Write() == 0
 assert os.path.getsize(store) == size
 assert not [name for name in os.listdir(os.path.dirname(store)) if name.endswith(".tmp")]
 
-# What the tool's options are: structure, attributes, normals, heights.
+# The tool's options are properties here: structure, attributes, normals, heights.
 shaped = pointfront.vtkPointFrontBuilder()
 shaped.AddFileName(points)
 shaped.SetOutputFileName(store + ".shaped.pfront")
@@ -71,7 +71,7 @@ reader.Update()
 opened = reader.GetStore()
 names = {opened.GetAttributeName(i) for i in range(opened.GetNumberOfAttributes())}
 assert names == {"intensity", "normal", "local_height", "splat_radius"}, names
-shaped.CurvatureOn()  # of PCA, which is not asked for
+shaped.CurvatureOn()  # comes from PCA, which is not asked for
 refused = []
 shaped.AddObserver(vtkCommand.ErrorEvent, lambda b, e: refused.append(e))
 assert shaped.Write() == 0 and shaped.GetErrorCode() != 0 and len(refused) == 1, refused

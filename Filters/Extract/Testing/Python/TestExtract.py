@@ -62,7 +62,7 @@ assert len(arrays(some)[0]) == 0
 some.ClearObjectClasses()
 some.Update()
 
-# What a camera sees: vtkPlanes as pickers and cameras fill them.
+# A camera's view is a region, too: vtkPlanes as pickers and cameras fill them.
 camera = vtkCamera()
 middle = positions.mean(axis=0)
 camera.SetPosition(*(middle + (300.0, -400.0, 500.0)))

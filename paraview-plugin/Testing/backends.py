@@ -123,7 +123,7 @@ if "POINTFRONT_SPARSE" in os.environ:
                               ("blended", ["", "blended", "", ""])):
             display.LensStyles = inside
             scene.save("%s-small-%s-%s" % (name, style, way))
-    # What is drawn beyond the cloud's box, by half a point or splat, is of all ranks, too.
+    # Ranks add what each draws beyond the cloud's box, half a point or splat, too.
     display.LensShape, display.PointSize = "Off", 15
     at = [*(0.5 * (low[i] + high[i]) for i in (0, 1)), high[2]]
     scene.look_as({"position": [*at[:2], at[2] + 1000], "focal_point": at,

@@ -100,7 +100,7 @@ def backends(programs):
                 compare(ours, alone, share=0.00002, channel=2, least=0.001)  # four pixels
                 continue
             if way.startswith("beyond-"):
-                # Of points at the same height the one that is drawn first is seen.
+                # The first that is drawn of points at the same height is seen.
                 compare(ours, alone, share=0.01, channel=2)
                 seen = [pictures.load(one + ".png").max(axis=2) > 0 for one in (ours, alone)]
                 if (seen[0] != seen[1]).any():

@@ -25,6 +25,7 @@
 #include <vtkStreamingDemandDrivenPipeline.h>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,7 @@ using pointfront::Result;
 struct vtkPointFrontExtract::Content
 {
   std::vector<std::uint8_t> Classes;
+  std::optional<int> NoClass; ///< asked for, and none of 0 to 255
   vtkSmartPointer<vtkPointFrontStore> Store;
 
   static Result<void> AddRegions(const vtkPointFrontExtract& filter, pointfront::PointQuery& query);
@@ -115,6 +117,11 @@ Result<pointfront::PointQuery> vtkPointFrontExtract::Content::Query(
   if (!where)
   {
     return where.error();
+  }
+  if (this->NoClass)
+  {
+    return pointfront::makeError(Error::Kind::BadArgument,
+      "a class " + std::to_string(*this->NoClass) + " is none of 0 to 255");
   }
   query.where = std::move(*where);
   query.classes = this->Classes;
@@ -226,16 +233,19 @@ void vtkPointFrontExtract::AddObjectClass(int objectClass)
 {
   if (objectClass < 0 || objectClass > 255)
   {
-    vtkErrorMacro("a class " << objectClass << " is none of 0 to 255");
-    return;
+    this->Internals->NoClass = objectClass; // the update says so
   }
-  this->Internals->Classes.push_back(static_cast<std::uint8_t>(objectClass));
+  else
+  {
+    this->Internals->Classes.push_back(static_cast<std::uint8_t>(objectClass));
+  }
   this->Modified();
 }
 
 void vtkPointFrontExtract::ClearObjectClasses()
 {
   this->Internals->Classes.clear();
+  this->Internals->NoClass.reset();
   this->Modified();
 }
 

@@ -95,7 +95,8 @@ public:
 
   ///@{
   /**
-   * Object classes (0 to 255) whose points are wanted. None added: of any class.
+   * Object classes (0 to 255) whose points are wanted. None added: of any class. With any other
+   * number the update is an error.
    */
   void AddObjectClass(int objectClass);
   void ClearObjectClasses();

@@ -72,6 +72,8 @@ def refusals(programs):
         for step, words in (("id", None), ("malformed", "cannot be evaluated"),
                             ("no name", "cannot be evaluated"), ("sound", None),
                             ("beside", "lies beside the cloud"),
+                            ("class", "a class 300 is none of 0 to 255"),
+                            ("radius", "its radius is 0 or more"), ("where", "character"),
                             ("too many", "PointFront Extract"), ("enough", None),
                             ("unnamed", "Most Selection Points"),
                             ("damaged", "cannot be read")):
@@ -103,7 +105,8 @@ def extract(programs):
               "sphere": exported("sphere", "--sphere", ",".join("%.17g" % x for x in sphere)),
               "conditions": exported("conditions", "--box", text, "--classes", "0,2", "--where",
                                      "intensity > 60 and return_number == 1")}
-    wanted["turned"] = wanted["box"]
+    for way in ("turned", "negative", "turned-negative"):
+        wanted[way] = wanted["box"]
     results = {}
     for count in (1, 2, 4):
         name = "extract-%d" % count

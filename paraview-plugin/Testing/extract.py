@@ -94,6 +94,15 @@ extract.Region.Length = [high[1] - low[1], high[0] - low[0], high[2] - low[2]]
 extract.Region.Rotation = [0.0, 0.0, 90.0]
 found["turned"] = points_of(extract)
 
+# A box lies between its ends, whichever is the lower one.
+extract.Region.Position = [high[0], high[1], low[2]]
+extract.Region.Length = [low[1] - high[1], high[0] - low[0], high[2] - low[2]]
+found["turned-negative"] = points_of(extract)
+extract.Region.Rotation = [0.0, 0.0, 0.0]
+extract.Region.Position = high.tolist()
+extract.Region.Length = (low - high).tolist()
+found["negative"] = points_of(extract)
+
 extract.Region = "Sphere"
 extract.Region.Center, extract.Region.Radius = sphere[:3], sphere[3]
 found["sphere"] = points_of(extract)

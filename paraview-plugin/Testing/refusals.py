@@ -73,6 +73,17 @@ beside.Region.Center, beside.Region.Radius = [1e9, 1e9, 1e9], 1.0
 beside.UpdatePipeline()
 simple.Delete(beside)
 
+# Nor does what cannot be meant bring all points.
+for name, region, settings_ in (("class", "Box", {"Classes": [300]}),
+                                ("radius", "Sphere", {}), ("where", "Box", {"Where": "id >"})):
+    step(name)
+    refused = PointFrontExtract(Input=reader, Region=region, **settings_)
+    if region == "Sphere":
+        refused.Region.Radius = -1.0
+    refused.UpdatePipeline()
+    require(refused.GetDataInformation().GetNumberOfPoints() == 0, name + ": points come")
+    simple.Delete(refused)
+
 step("too many")
 settings.MostSelectionPoints = 100
 require(selected(reader, "(id == 7)") == 0, "more points than may be read")

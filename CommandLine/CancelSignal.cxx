@@ -2,6 +2,8 @@
 
 #include "Command.h"
 
+#include "pointfront/Disk/StopOfReads.h"
+
 #include <unistd.h>
 
 namespace pointfront
@@ -25,6 +27,7 @@ void leave(int)
 
 CancelSignal::CancelSignal(Mode mode)
 {
+  StopOfReads::setForProcess(&CancelSignal::requested); // a silent server holds nobody
   struct sigaction action = {};
   action.sa_handler = mode == Mode::Finish ? remember : leave;
   sigemptyset(&action.sa_mask);

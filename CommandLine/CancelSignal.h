@@ -8,7 +8,8 @@ namespace pointfront
 /// SIGINT and SIGTERM while a command runs. Objects may be nested; the handlers of before come back
 /// when one goes.
 /// Modes    Finish: the signal only sets a flag; the operation sees it at its next progress report,
-///          stops and removes what it had begun (builds, exports).
+/// or
+///          while it waits for a server, stops and removes what it had begun (builds, exports).
 ///          Leave: the process ends at once with status 130; for commands that have nothing on the
 ///          disk yet, whatever they are waiting for (a render in a driver, for example).
 class CancelSignal

@@ -2,6 +2,8 @@
 
 #include "TransferLoop.h"
 
+#include "pointfront/Disk/StopOfReads.h"
+
 #include <algorithm>
 #include <cctype>
 #include <cstdlib>
@@ -48,12 +50,17 @@ milliseconds askedPause(const HttpAnswer& answer)
     milliseconds(1000 * std::clamp(seconds, 0L, 3600L)), milliseconds(0), longestAskedPause);
 }
 
-/// Waits, and looks again and again whether it is cancelled.
+bool isStopped(const std::atomic<bool>& cancelled)
+{
+  return cancelled || StopOfReads::asked();
+}
+
+/// Waits, and looks again and again whether it is stopped.
 void pauseFor(milliseconds pause, Clock::time_point deadline, const std::atomic<bool>& cancelled)
 {
   constexpr milliseconds step{ 25 };
   const Clock::time_point end = std::min(deadline, Clock::now() + pause);
-  while (!cancelled && Clock::now() < end)
+  while (!isStopped(cancelled) && Clock::now() < end)
   {
     const auto left = std::chrono::duration_cast<milliseconds>(end - Clock::now());
     std::this_thread::sleep_for(std::clamp(left, milliseconds(1), step));
@@ -81,8 +88,12 @@ Conversation::Redirection& Conversation::redirection() const
   return redirection_.get([] { return std::make_unique<Redirection>(); });
 }
 
-Error Conversation::changed() const
+Error Conversation::changed(std::optional<RemoteIdentity>& identity) const
 {
+  if (identity)
+  {
+    identity->replaced = true;
+  }
   return failed(
     Error::Kind::Unreadable, "has changed on its server while it was open; open it again");
 }
@@ -145,7 +156,7 @@ Result<void> Conversation::compare(
   const bool same = identity->bytes == found.bytes &&
     (!identity->tag.empty() || !found.tag.empty() ? identity->tag == found.tag
                                                   : identity->changed == found.changed);
-  return same ? Result<void>() : changed();
+  return same ? Result<void>() : changed(identity);
 }
 
 Result<Conversation::Verdict> Conversation::takePart(
@@ -302,7 +313,7 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   }
   if (answer.status == 412 || answer.status == 416 || (answer.status == 200 && identity))
   {
-    return changed();
+    return changed(identity);
   }
   if (isForNow(answer.status))
   {
@@ -412,7 +423,7 @@ Result<void> Conversation::fetch(std::vector<WantedBytes>& wanted,
     {
       return round.error();
     }
-    if (cancelled)
+    if (isStopped(cancelled))
     {
       return failed(Error::Kind::Cancelled, "is not wanted any more");
     }

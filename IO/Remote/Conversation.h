@@ -24,6 +24,7 @@ struct RemoteIdentity
   std::string tag; ///< ETag, as the server writes it; empty: it gives none
   std::string changed; ///< Last-Modified
   std::uint64_t bytes = 0;
+  bool replaced = false; ///< an answer was of another file
 };
 
 /// Bytes of a far file that are wanted, and what has come of them.
@@ -52,9 +53,9 @@ public:
   {
   }
 
-  /// All parts, or an error. After Cancelled, which comes soon after `cancelled` is set, some parts
-  /// may be there, or the beginnings of some. Without a known identity, that of the first answer is
-  /// taken.
+  /// All parts, or an error. After Cancelled, which comes soon after `cancelled` or StopOfReads,
+  /// some parts may be there, or the beginnings of some. Without a known identity, that of the
+  /// first answer is taken.
   Result<void> fetch(std::vector<WantedBytes>& wanted, std::optional<RemoteIdentity>& identity,
     const std::atomic<bool>& cancelled) const;
   /// The line of the TransferLoop.
@@ -101,7 +102,7 @@ private:
     const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const;
   Result<Verdict> redirect(const HttpAnswer& answer) const;
   Redirection& redirection() const;
-  Error changed() const;
+  Error changed(std::optional<RemoteIdentity>& identity) const;
   Error refused(long status) const;
   Error failed(Error::Kind kind, const std::string& what) const;
 

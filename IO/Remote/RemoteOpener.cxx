@@ -2,11 +2,11 @@
 
 #include "TransferLoop.h"
 
+#include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Threads/ForkHold.h"
 
 #include <chrono>
 #include <exception>
-#include <future>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -20,6 +20,7 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::seconds heldFor{ 3 };
 constexpr std::chrono::seconds failedFor{ 1 };
+constexpr std::chrono::milliseconds lookAgain{ 25 }; ///< whether it is stopped
 
 template <typename Entries>
 void dropPast(Entries& entries, Clock::time_point now)
@@ -120,7 +121,7 @@ void RemoteOpener::Tables::note(const std::string& name, const Opened& opened)
   {
     sources[name] = { *opened, *opened, now + heldFor };
   }
-  else
+  else if (opened.error().kind != Error::Kind::Cancelled)
   {
     failed.insert_or_assign(name, Failed{ opened.error(), now + failedFor });
   }
@@ -166,36 +167,15 @@ RemoteOpener::Opened RemoteOpener::openNow(
   return opened.error();
 }
 
-Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
-  const std::string& text, const FirstBytes& first) const
+/// An opening that others may wait for.
+RemoteOpener::Opened RemoteOpener::openFor(const std::string& name, const Address& address,
+  const FirstBytes& first, Tables& tables, std::promise<Opened>& promise) const
 {
-  const Result<Address> address = Address::parse(addressOf(text));
-  if (!address)
-  {
-    return address.error();
-  }
-  const std::string name = rememberAddress(*address);
-  Tables& tables = tables_->get([] { return std::make_unique<Tables>(); });
-  std::promise<Opened> promise;
-  {
-    std::unique_lock<std::mutex> lock(tables.mutex);
-    if (std::optional<Opened> known = tables.find(name, address->origin()))
-    {
-      return std::move(*known);
-    }
-    if (const auto other = tables.opening.find(name); other != tables.opening.end())
-    {
-      const std::shared_future<Opened> outcome = other->second;
-      lock.unlock();
-      return outcome.get();
-    }
-    tables.opening.emplace(name, promise.get_future().share());
-  }
   std::optional<Opened> opened;
   std::exception_ptr failure;
   try
   {
-    opened = openNow(name, *address, first, tables);
+    opened = openNow(name, address, first, tables);
   }
   catch (...)
   {
@@ -216,6 +196,56 @@ Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
   }
   promise.set_value(*opened);
   return std::move(*opened);
+}
+
+Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
+  const std::string& text, const FirstBytes& first) const
+{
+  const Result<Address> address = Address::parse(addressOf(text));
+  if (!address)
+  {
+    return address.error();
+  }
+  const std::string name = rememberAddress(*address);
+  Tables& tables = tables_->get([] { return std::make_unique<Tables>(); });
+  for (;;)
+  {
+    std::promise<Opened> promise;
+    std::shared_future<Opened> other;
+    {
+      const std::lock_guard<std::mutex> lock(tables.mutex);
+      if (std::optional<Opened> known = tables.find(name, address->origin()))
+      {
+        return std::move(*known);
+      }
+      const auto found = tables.opening.find(name);
+      if (found != tables.opening.end())
+      {
+        other = found->second;
+      }
+      else
+      {
+        tables.opening.emplace(name, promise.get_future().share());
+      }
+    }
+    if (!other.valid())
+    {
+      return openFor(name, *address, first, tables, promise);
+    }
+    while (other.wait_for(lookAgain) != std::future_status::ready)
+    {
+      if (StopOfReads::asked())
+      {
+        return makeError(Error::Kind::Cancelled, "'" + name + "' is not wanted any more");
+      }
+    }
+    if (const Opened& outcome = other.get();
+        outcome || outcome.error().kind != Error::Kind::Cancelled)
+    {
+      return outcome;
+    }
+    // Another thread opened it, and was stopped: this one's turn.
+  }
 }
 
 void addRemoteOpeners()

@@ -5,6 +5,7 @@
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Threads/OfProcess.h"
 
+#include <future>
 #include <memory>
 #include <string>
 
@@ -17,6 +18,7 @@ namespace pointfront
 /// Failures  are those of the next second, too. A server of which no answer comes is not asked
 ///           again, for any of its files, for as long as it took to find that out: a list of 1,000
 ///           files of a dead server waits once.
+/// Stop      StopOfReads of the thread that opens; another that waits for its opening opens then.
 /// Fork      a child process has tables of its own.
 class RemoteOpener final : public ByteOpener
 {
@@ -31,6 +33,8 @@ private:
   struct Tables;
   using Opened = Result<std::shared_ptr<const ByteSource>>;
 
+  Opened openFor(const std::string& name, const Address& address, const FirstBytes& first,
+    Tables& tables, std::promise<Opened>& promise) const;
   Opened openNow(
     const std::string& name, const Address& address, const FirstBytes& first, Tables& tables) const;
 

@@ -90,10 +90,6 @@ void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size,
   }
 }
 
-bool tellsOfChange(const Error& error)
-{
-  return error.what.find("has changed on its server") != std::string::npos;
-}
 } // namespace
 
 RemoteSource::RemoteSource(std::unique_ptr<const Conversation> conversation,
@@ -140,7 +136,7 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
   std::optional<RemoteIdentity> identity;
   const std::atomic<bool> cancelled{ false };
   Result<void> done = conversation->fetch(ends, identity, cancelled);
-  if (!done && tellsOfChange(done.error()))
+  if (!done && identity && identity->replaced)
   {
     // Head and tail are of two files: it was replaced just now, and the new one can be had.
     ends = asked;
@@ -303,7 +299,7 @@ Result<void> RemoteSource::ask(const std::vector<const ByteRange*>& missing,
   const Result<void> done = conversation_->fetch(pieces, identity, stop);
   if (!done && done.error().kind != Error::Kind::Cancelled)
   {
-    changed_ = changed_ || tellsOfChange(done.error());
+    changed_ = changed_ || (identity && identity->replaced);
     return done;
   }
   for (const WantedBytes& piece : pieces)

@@ -3,6 +3,7 @@
 #include "Transfer.h"
 
 #include "pointfront/Disk/ByteTraffic.h"
+#include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Threads/ForkHold.h"
 #include "pointfront/Threads/OfProcess.h"
 #include "pointfront/Threads/WorkerThread.h"
@@ -285,7 +286,7 @@ std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
   const std::vector<HttpQuestion>& questions, ReadPatience& patience,
   const std::atomic<bool>& cancelled)
 {
-  constexpr std::chrono::milliseconds lookAgain{ 25 }; // whether it is cancelled
+  constexpr std::chrono::milliseconds lookAgain{ 25 }; // whether it is stopped
   Content& c = *content_;
   std::vector<HttpAnswer> answers(questions.size());
   Transfers transfers;
@@ -293,6 +294,7 @@ std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
   {
     transfers.push_back(std::make_unique<Transfer>(line, questions[i], answers[i]));
   }
+  bool stop = cancelled || StopOfReads::asked();
   std::unique_lock<std::mutex> lock(c.mutex);
   if (c.stopped || !c.ensureThread())
   {
@@ -314,8 +316,8 @@ std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
   const Clock::time_point queued = Clock::now();
   ReadPatience queue(patience.limit(), queued);
   queue.restart(c.receivedOn(line), queued);
-  while (!allOver(transfers) && !c.stopped && !cancelled &&
-    !(begun ? patience : queue).over(Clock::now()))
+  while (
+    !allOver(transfers) && !c.stopped && !stop && !(begun ? patience : queue).over(Clock::now()))
   {
     c.answered.wait_until(lock, Clock::now() + lookAgain);
     const Clock::time_point now = Clock::now();
@@ -327,6 +329,9 @@ std::vector<HttpAnswer> TransferLoop::run(const std::string& line,
     }
     patience.note(sum, now);
     queue.note(c.receivedOn(line), now);
+    lock.unlock(); // who is asked may wait for locks, such as Python's
+    stop = cancelled || StopOfReads::asked();
+    lock.lock();
   }
   c.withdraw(line, transfers);
   c.answered.wait(lock, [&] { return allOver(transfers); });

@@ -40,9 +40,10 @@ public:
   TransferLoop(const TransferLoop&) = delete;
   TransferLoop& operator=(const TransferLoop&) = delete;
 
-  /// Asks all and waits for all answers, as long as `patience` lasts and `cancelled` is false: a
-  /// few hundredths of a second later the transfers are ended. Questions of one call go to one
-  /// line, in their order. While none of them has begun, bytes of others on the line count.
+  /// Asks all and waits for all answers, as long as `patience` lasts and neither `cancelled`
+  /// nor StopOfReads is: a few hundredths of a second later the transfers are ended. Questions of
+  /// one call go to one line, in their order. While none of them has begun, bytes of others on the
+  /// line count.
   std::vector<HttpAnswer> run(const std::string& line, const std::vector<HttpQuestion>& questions,
     ReadPatience& patience, const std::atomic<bool>& cancelled);
 

@@ -5,6 +5,7 @@
 #include "Overview.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
 
@@ -205,6 +206,8 @@ int vtkPointFrontReader::RequestInformation(
     vtkErrorMacro("no file name: set FileName to a .pfront store");
     return 0;
   }
+  this->SetAbortExecute(0); // the stop of an earlier run does not stop this one
+  const pointfront::StopOfReads stop([this] { return this->GetAbortExecute() != 0; });
   // The first comes last and stays.
   for (std::size_t time = this->FileNames.size(); time-- > 0;)
   {

@@ -4,13 +4,16 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import signal
+import socket
 import subprocess
 import sys
+import time
 import unittest
 
 from documents import STADIUM
 from pictures import read_png
-from tool import SLOWNESS, ToolTest
+from tool import SLOWNESS, TOOL, ToolTest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
 
@@ -244,6 +247,23 @@ class BadWeather(RemoteTest):
                 environment=environment(POINTFRONT_REMOTE_TIMEOUT=str(limit)))
         self.assertEqual(out.read_bytes(), self.expected)
         self.assertGreater(outcome.seconds, 2 * limit)
+
+    def test_a_signal_ends_the_wait_for_a_silent_server(self):
+        out = self.folder / "never.csv"
+        with socket.create_server((HERE, 0)) as silent:
+            silent.settimeout(20 * SLOWNESS)
+            port = silent.getsockname()[1]
+            with subprocess.Popen([TOOL, "export", f"http://{HERE}:{port}/a.pfront", "-o", out],
+                                  env=environment(), stderr=subprocess.PIPE) as tool:
+                with silent.accept()[0] as connection:
+                    connection.recv(65536)
+                    begin = time.monotonic()
+                    tool.send_signal(signal.SIGINT)
+                    status = tool.wait()
+                    seconds = time.monotonic() - begin
+        self.assertEqual(status, 130)
+        self.assertLess(seconds, 1.0 * SLOWNESS)  # 60, and status 1, before
+        self.assertFalse(out.exists())
 
     def test_a_certificate_that_nobody_vouches_for(self):
         own = self.folder / "own.pem"

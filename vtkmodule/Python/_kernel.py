@@ -42,7 +42,7 @@ def _loaded():
     library = ctypes.CDLL(str(pathlib.Path(__file__).parent / "libpointfrontPython.so"))
     pointer = ctypes.c_void_p
     for name, arguments in (
-            ("Open", [_BYTES, ctypes.POINTER(pointer), _DOUBLES]),
+            ("Open", [_BYTES, ctypes.POINTER(pointer), _DOUBLES, PROGRESS]),
             ("Points", [pointer, ctypes.POINTER(Query), PROGRESS]),
             ("Build", [_BYTES, ctypes.POINTER(_Array), ctypes.c_size_t, ctypes.c_uint64, PROGRESS]),
             ("Index", [_BYTES, _BYTES, ctypes.c_int, ctypes.c_uint32, PROGRESS]),
@@ -187,8 +187,10 @@ class StoredCloud:
         self._process = os.getpid()
         self._handle = ctypes.c_void_p()
         bounds = (ctypes.c_double * 6)()
-        self.description = _answer(
-            _library.pointfrontOpen(self._path, ctypes.byref(self._handle), bounds))
+        self.description = call(
+            lambda report: _answer(_library.pointfrontOpen(
+                self._path, ctypes.byref(self._handle), bounds, report)),
+            None, "stopped while it was opened")
         self.bounds = tuple(bounds)
 
     def points(self, query, progress):

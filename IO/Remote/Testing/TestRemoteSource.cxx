@@ -3,9 +3,11 @@
 #include "SmallServer.h"
 
 #include "pointfront/Disk/ByteSource.h"
+#include "pointfront/Disk/StopOfReads.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
@@ -80,6 +82,43 @@ TEST(RemoteSource, AStopEndsTheTransfers)
   EXPECT_TRUE(comes([&] { return server.left >= 4; })); // none goes on unseen
   server.silent = false;
   EXPECT_TRUE((*source)->read(ranges.data(), ranges.size()));
+}
+
+TEST(RemoteOpener, AStopEndsAnOpening)
+{
+  SmallServer server(words(1 << 16));
+  const RemoteOpener opener(RemoteOptions{});
+  milliseconds best{ 10000 };
+  for (int round = 0; round < 5 && best > milliseconds(100); ++round) // the machine may be busy
+  {
+    const std::string address = server.address(std::to_string(round));
+    server.silent = true;
+    const unsigned before = server.requests;
+    std::atomic<bool> stopped{ false };
+    Error::Kind kind = Error::Kind::NotFound;
+    Clock::time_point ended;
+    std::thread opening(
+      [&]
+      {
+        const StopOfReads stop([&stopped] { return stopped.load(); });
+        const StopOfReads inner([] { return false; });
+        const auto opened = opener.open(address, { 4096, 0 });
+        ended = Clock::now();
+        kind = opened ? kind : opened.error().kind;
+      });
+    EXPECT_TRUE(comes([&] { return server.requests == before + 1; }));
+    bool waiterOpened = false;
+    std::thread waiter([&] { waiterOpened = bool(opener.open(address, { 4096, 0 })); });
+    server.silent = false; // the first request stays without an answer
+    const Clock::time_point asked = Clock::now();
+    stopped = true;
+    opening.join();
+    waiter.join();
+    EXPECT_EQ(kind, Error::Kind::Cancelled);
+    EXPECT_TRUE(waiterOpened); // nobody has stopped it
+    best = std::min(best, std::chrono::duration_cast<milliseconds>(ended - asked));
+  }
+  EXPECT_LE(best, milliseconds(100)); // 60 seconds before
 }
 
 TEST(RemoteOpener, SeveralWhoOpenOneAddressGetOneSource)

@@ -7,6 +7,7 @@
 #include "PlainColumns.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/QueryPlan.h"
@@ -253,7 +254,8 @@ char* pointfrontClassNames()
     });
 }
 
-char* pointfrontOpen(const char* path, PointFrontCloud** cloud, double bounds[6])
+char* pointfrontOpen(
+  const char* path, PointFrontCloud** cloud, double bounds[6], PointFrontProgress progress)
 {
   *cloud = nullptr;
   return answer(
@@ -265,6 +267,7 @@ char* pointfrontOpen(const char* path, PointFrontCloud** cloud, double bounds[6]
       {
         return found.error();
       }
+      const pointfront::StopOfReads stop([progress] { return progress("open", 0.0) == 0; });
       auto opened = pointfront::StoredCloudFormats::ofProcess().open(*found);
       if (!opened)
       {

@@ -53,7 +53,9 @@ extern "C"
   /// `cloud` gets the opened cloud, or null; `bounds` its lowest and highest corner. Answers
   /// "path", "points", "attributes", "computed" (those of them that are made while points are
   /// read), "classes" (pairs of number and name) and "deep" (whether "rgb" has values above 255).
-  char* pointfrontOpen(const char* path, PointFrontCloud** cloud, double bounds[6]);
+  /// A 0 of `progress` ends it while it waits for a server.
+  char* pointfrontOpen(
+    const char* path, PointFrontCloud** cloud, double bounds[6], PointFrontProgress progress);
   void pointfrontClose(PointFrontCloud* cloud);
 
   /// Answers "points" and "columns": {"name", "type", "components", "address"} each, of memory that

@@ -4,8 +4,12 @@ import os
 import pathlib
 import pickle
 import shutil
+import signal
+import socket
 import sys
 import tempfile
+import threading
+import time
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
@@ -53,6 +57,28 @@ class Addresses(unittest.TestCase):
                 cloud.export(file, overwrite=True)
             self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
             self.assertEqual(len(pickle.loads(pickle.dumps(far))), len(near))
+
+    def test_an_interrupt_ends_the_wait_for_a_silent_server(self):
+        with socket.create_server((HERE, 0)) as silent:
+            silent.settimeout(20)
+            seconds = []
+
+            def interrupt():
+                with silent.accept()[0] as connection:
+                    connection.recv(65536)
+                    seconds.append(time.monotonic())
+                    os.kill(os.getpid(), signal.SIGINT)
+                    ended.wait(20)
+
+            ended = threading.Event()
+            thread = threading.Thread(target=interrupt)
+            thread.start()
+            with self.assertRaises(KeyboardInterrupt):
+                pointfront.open(f"http://{HERE}:{silent.getsockname()[1]}/a.pfront")
+            seconds.append(time.monotonic())
+            ended.set()
+            thread.join()
+        self.assertLess(seconds[1] - seconds[0], 1.0)  # 3, the time limit, before
 
     def test_errors_are_raised_without_secrets(self):
         for weather, words in (("~forbidden/", "403"), ("none/", "404"), ("~gzipped/", "compress")):

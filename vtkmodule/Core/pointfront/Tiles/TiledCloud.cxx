@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TiledCloud.h"
 
+#include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Threads/ThreadCrew.h"
@@ -79,8 +80,13 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   raiseOpenFiles(files.size());
   std::vector<Result<std::shared_ptr<const StoredCloud>>> opened(
     files.size(), makeError(Error::Kind::NotFound, ""));
+  const std::function<bool()> stopped = StopOfReads::carry();
   ThreadCrew::ofProcess().run(files.size(),
-    [&](std::size_t i, unsigned) { opened[i] = StoredCloudFormats::ofProcess().open(files[i]); });
+    [&](std::size_t i, unsigned)
+    {
+      const StopOfReads stop(stopped);
+      opened[i] = StoredCloudFormats::ofProcess().open(files[i]);
+    });
   constexpr std::size_t mostNamed = 3;
   std::string faults;
   std::size_t faulty = 0;

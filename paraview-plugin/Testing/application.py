@@ -5,36 +5,17 @@ happens in the application's event loop, as for a user. Saves application.png. W
 application.json: the frames of each phase, as [points drawn, complete], and what failed.
 """
 
-import json
-import os
-import traceback
-
 from paraview import simple
 
+from session import Session
+
 phases = {"opened": [], "moving": [], "at rest again": []}
+session = Session("application", phases=phases)
 
 
-def end(failure):
-    """Ends the application at once: it has no way out for scripts, and nothing is left to save."""
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "application.json"), "w") as file:
-        json.dump({"phases": phases, "failure": failure}, file)
-    os._exit(1 if failure else 0)
-
-
-def guarded(action):
-    def run(*_):
-        try:
-            action()
-        except BaseException:
-            end(traceback.format_exc())
-    return run
-
-
-@guarded
+@session.guarded
 def start():
-    # A modal dialog would wait for somebody.
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     import scene
 
     shown = scene.Scene(simple.GetActiveViewOrCreate("RenderView"))
@@ -43,7 +24,7 @@ def start():
     shown.display.TargetFrameTime = 2.0  # milliseconds
     current = ["opened"]
 
-    @guarded
+    @session.guarded
     def rendered():
         phase = current[0]
         if phase is None:
@@ -56,7 +37,7 @@ def start():
             drag()
         elif phase == "at rest again" and complete:
             current[0] = None
-            end(None)
+            session.end()
 
     def drag():
         """As the interactor tells of a mouse that is pressed, moved to and fro, and let go."""

@@ -5,23 +5,18 @@ store, the other file plays the events. Writes applied.json: whether the cloud i
 render finds it, and the filters that are there.
 """
 
-import json
 import os
-import traceback
 
 from paraview import simple
 
-found = {"shown": [], "filters": [], "failure": None}
+from session import Session
+
+session = Session("applied", shown=[], filters=[])
 
 
-def write():
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "applied.json"), "w") as file:
-        json.dump(found, file)
-
-
+@session.guarded
 def start():
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     view = simple.GetActiveViewOrCreate("RenderView")
     reader = simple.OpenDataFile(os.environ["POINTFRONT_STORE"])
     reader.OverviewPoints = 1000
@@ -29,13 +24,11 @@ def start():
     simple.SetActiveSource(reader)
     simple.Render(view)
 
-    def rendered(*_):
-        try:
-            found["shown"].append(int(display.Visibility))
-            found["filters"] = [source.GetXMLName() for source in simple.GetSources().values()]
-        except BaseException:
-            found["failure"] = traceback.format_exc()
-        write()
+    @session.guarded
+    def rendered():
+        session.found["shown"].append(int(display.Visibility))
+        session.found["filters"] = [one.GetXMLName() for one in simple.GetSources().values()]
+        session.write()
 
     view.SMProxy.AddObserver("EndEvent", rendered)
 

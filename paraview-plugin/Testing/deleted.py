@@ -6,13 +6,13 @@ Information panel and deletes the cloud. Writes deleted.json: how often this pro
 store's file open, before and after.
 """
 
-import json
 import os
-import traceback
 
 from paraview import simple
 
-found = {"open": [], "sources": [], "failure": None}
+from session import Session
+
+session = Session("deleted", open=[], sources=[])
 store = os.environ["POINTFRONT_STORE"]
 
 
@@ -28,40 +28,21 @@ def times_open():
     return paths.count(store)
 
 
-def write():
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "deleted.json"), "w") as file:
-        json.dump(found, file)
-
-
-def guarded(action):
-    def run(*_):
-        try:
-            action()
-        except BaseException:
-            found["failure"] = traceback.format_exc()
-        write()
-    return run
-
-
-@guarded
+@session.guarded
 def start():
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     view = simple.GetActiveViewOrCreate("RenderView")
     reader = simple.OpenDataFile(store)
     simple.Show(reader, view)
     simple.SetActiveSource(reader)
     simple.Render(view)
-    interactor = view.SMProxy.GetInteractor()
 
-    @guarded
     def tick():
-        found["open"].append(times_open())
-        found["sources"].append(len(simple.GetSources()))
-        interactor.CreateOneShotTimer(200)
+        session.found["open"].append(times_open())
+        session.found["sources"].append(len(simple.GetSources()))
+        session.write()
 
-    interactor.AddObserver("TimerEvent", tick)
-    interactor.CreateOneShotTimer(200)
+    session.every_tick(view, tick)
 
 
 start()

@@ -10,29 +10,15 @@ import ctypes
 import json
 import os
 import time
-import traceback
 
 from paraview import simple
 
-found = {"rounds": [], "failure": None}
+from session import OUTPUT, Session
+
+session = Session("opened", rounds=[])
+found = session.found
 lines = json.loads(os.environ["POINTFRONT_LINES"])
 LONGEST = 100  # seconds
-
-
-def end():
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "opened.json"), "w") as file:
-        json.dump(found, file, indent=1)
-    os._exit(1 if found["failure"] else 0)
-
-
-def guarded(action):
-    def run(*_):
-        try:
-            action()
-        except BaseException:
-            found["failure"] = traceback.format_exc()
-            end()
-    return run
 
 
 def stored(source):
@@ -41,14 +27,12 @@ def stored(source):
     return int(array.GetComponentRange(0)[0]) if array else 0
 
 
-@guarded
+@session.guarded
 def start():
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
     probe = ctypes.CDLL(os.environ["POINTFRONT_PANEL_PROBE"])
     probe.pointfrontAct.restype = probe.pointfrontPress.restype = ctypes.c_bool
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     view = simple.GetActiveViewOrCreate("RenderView")
-    interactor = view.SMProxy.GetInteractor()
     begun, steps, known = time.monotonic(), [], set()
 
     def opens():
@@ -74,25 +58,21 @@ def start():
         found["rounds"].append(sorted(rows))
         known.update(simple.GetSources())
         simple.ResetCamera(view)
-        simple.SaveScreenshot(
-            os.path.join(os.environ["POINTFRONT_OUTPUT"], "opened-%d.png" % number), view)
+        simple.SaveScreenshot(os.path.join(OUTPUT, "opened-%d.png" % number), view)
         for source in came.values():
             simple.Hide(source, view)
         if len(found["rounds"]) == len(lines):
-            end()
+            session.end()
         steps.append(opens)
 
     steps.append(opens)
 
-    @guarded
     def tick():
         steps[-1]()
         if time.monotonic() - begun > LONGEST:
             raise AssertionError("stopped at %s: %s" % (steps[-1].__name__, found))
-        interactor.CreateOneShotTimer(200)
 
-    interactor.AddObserver("TimerEvent", tick)
-    interactor.CreateOneShotTimer(200)
+    session.every_tick(view, tick)
     view.SMProxy.StillRender()
 
 

@@ -8,37 +8,22 @@ import ctypes
 import json
 import os
 import time
-import traceback
 
 from paraview import simple
 
-said = {"failure": None}
+from session import Session
+
+session = Session("panel_width")
+said = session.found
 LONGEST = 60  # seconds
 
 
-def end():
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "panel_width.json"), "w") as file:
-        json.dump(said, file, indent=1)
-    os._exit(1 if said["failure"] else 0)
-
-
-def guarded(action):
-    def run(*_):
-        try:
-            action()
-        except BaseException:
-            said["failure"] = traceback.format_exc()
-            end()
-    return run
-
-
-@guarded
+@session.guarded
 def start():
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
     probe = ctypes.CDLL(os.environ["POINTFRONT_PANEL_PROBE"])
     probe.pointfrontPanel.restype = ctypes.c_char_p
     probe.pointfrontWrite.restype = ctypes.c_bool
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     import scene
 
     view = simple.GetActiveViewOrCreate("RenderView")
@@ -46,7 +31,6 @@ def start():
     simple.Show(sphere, view)
     simple.SetActiveSource(sphere)
     begun = time.monotonic()
-    interactor = view.SMProxy.GetInteractor()
 
     def show_cloud():
         simple.Delete(sphere)
@@ -56,7 +40,6 @@ def start():
         simple.SetActiveSource(shown.reader)
         view.SMProxy.StillRender()
 
-    @guarded
     def tick():
         found = json.loads(probe.pointfrontPanel())
         seconds = time.monotonic() - begun
@@ -68,7 +51,7 @@ def start():
             said["written"] = list(simple.GetDisplayProperties(
                 simple.GetActiveSource(), view).ClassStyles)
             if said["written"][4:5] == ["5"] or seconds > LONGEST:
-                end()
+                session.end()
         elif seconds > 10 and len(tables) == 3 and all(table["heads"] for table in tables):
             said["cloud"] = found
             # A row is written into the empty one, and one is emptied.
@@ -77,10 +60,8 @@ def start():
                 scene.require(probe.pointfrontWrite(b"ClassStyles", row, column, text), "no cell")
         if seconds > LONGEST:
             raise AssertionError("no panel with tables: %s" % found)
-        interactor.CreateOneShotTimer(200)
 
-    interactor.AddObserver("TimerEvent", tick)
-    interactor.CreateOneShotTimer(200)
+    session.every_tick(view, tick)
     view.SMProxy.StillRender()
 
 

@@ -6,27 +6,23 @@ rubber_band.json: the bounds of what was selected and extracted, their points, a
 Saves rubber_band.png.
 """
 
-import json
 import os
-import traceback
 
 from paraview import simple
 
-found = {"failure": None}
+from session import OUTPUT, Session
 
-
-def end():
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "rubber_band.json"), "w") as file:
-        json.dump(found, file)
+session = Session("rubber_band")
+found = session.found
 
 
 def describe(information):
     return {"points": information.GetNumberOfPoints(), "bounds": information.GetBounds()}
 
 
+@session.guarded
 def start():
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     view = simple.GetActiveViewOrCreate("RenderView")
     reader = simple.OpenDataFile(os.environ["POINTFRONT_STORE"])
     reader.OverviewPoints = 1000
@@ -39,23 +35,20 @@ def start():
     simple.Render(view)
     looking = []
 
-    def rendered(*_):
+    @session.guarded
+    def rendered():
         if looking:
             return  # it renders itself
         looking.append(True)
-        try:
-            if reader.SMProxy.GetSelectionInput(0) and "selected" not in found:
-                output = reader.SMProxy.GetSelectionOutput(0)
-                found["selected"] = describe(output.GetDataInformation(0))
-                simple.SaveScreenshot(
-                    os.path.join(os.environ["POINTFRONT_OUTPUT"], "rubber_band.png"), view)
-            for source in simple.GetSources().values():
-                if source.GetXMLName() == "ExtractSelection":
-                    found["extracted"] = describe(source.GetDataInformation())
-        except BaseException:
-            found["failure"] = traceback.format_exc()
+        if reader.SMProxy.GetSelectionInput(0) and "selected" not in found:
+            output = reader.SMProxy.GetSelectionOutput(0)
+            found["selected"] = describe(output.GetDataInformation(0))
+            simple.SaveScreenshot(os.path.join(OUTPUT, "rubber_band.png"), view)
+        for source in simple.GetSources().values():
+            if source.GetXMLName() == "ExtractSelection":
+                found["extracted"] = describe(source.GetDataInformation())
         looking.clear()
-        end()
+        session.write()
 
     view.SMProxy.AddObserver("EndEvent", rendered)
 

@@ -1,5 +1,5 @@
 /// Tells what ParaView's properties panel shows, and uses its window as who sits before it, for
-/// tests that run inside of ParaView (panel.py, opened.py): its Python knows no Qt.
+/// tests that run inside of ParaView (panel.py, opened.py, far_panel.py): its Python knows no Qt.
 
 #include <QAbstractButton>
 #include <QAction>
@@ -10,7 +10,9 @@
 #include <QJsonArray>
 #include <QJsonDocument>
 #include <QJsonObject>
+#include <QKeyEvent>
 #include <QLabel>
+#include <QLineEdit>
 #include <QScrollArea>
 #include <QScrollBar>
 #include <QString>
@@ -19,6 +21,8 @@
 #include <QTimer>
 #include <QTreeView>
 #include <QWidget>
+
+#include <utility>
 
 namespace
 {
@@ -145,6 +149,27 @@ extern "C" Q_DECL_EXPORT int pointfrontChoose(const char* names)
     return chosen;
   }
   return -1;
+}
+
+/// As who types a line for a property into the panel; false if there is no such line.
+extern "C" Q_DECL_EXPORT bool pointfrontType(const char* property, const char* text)
+{
+  for (QWidget* widget : QApplication::allWidgets())
+  {
+    if (widget->inherits("pqPropertyWidget") && widget->isVisible() &&
+      widget->objectName() == property)
+    {
+      auto* const line = widget->findChild<QLineEdit*>();
+      for (const auto& [key, typed] : { std::pair<int, QString>{ Qt::Key_unknown, text },
+             std::pair<int, QString>{ Qt::Key_Return, "\r" } })
+      {
+        QKeyEvent pressed(QEvent::KeyPress, key, Qt::NoModifier, typed);
+        line ? static_cast<void>(QApplication::sendEvent(line, &pressed)) : void();
+      }
+      return line != nullptr;
+    }
+  }
+  return false;
 }
 
 /// Presses a button of the main window; false if none is shown that can be pressed.

@@ -1,5 +1,6 @@
 """Ways to run ParaView that open and write files. Each function is a test: see drive.py."""
 
+import contextlib
 import csv
 import glob
 import json
@@ -7,11 +8,13 @@ import os
 import re
 import shlex
 import shutil
+import subprocess
+import sys
 
 import numpy
 import pictures
 from expected import compare, exported
-from programs import HERE, mpi, tool, with_server
+from programs import HERE, mpi, python_client, tool, with_server
 
 
 def files(programs):
@@ -80,6 +83,48 @@ def opened(programs):
         picture = pictures.load("opened-%d.png" % number)
         if (picture != picture[-1, -1]).any(axis=2).mean() < 0.02:
             raise AssertionError("nothing is shown")
+
+
+THIS_MACHINE = "127.0.0.1"
+
+
+@contextlib.contextmanager
+def served(folder):
+    """The origin of a web server of this machine that has the folder's files."""
+    script = os.path.join(HERE, "..", "..", "Testing", "Support", "far_server.py")
+    with subprocess.Popen([sys.executable, "-B", script, folder], stdin=subprocess.PIPE,
+                          stdout=subprocess.PIPE, text=True) as server:
+        yield f"http://{THIS_MACHINE}:{server.stdout.readline().strip()}"
+        server.stdin.close()
+
+
+def far(programs):
+    """A cloud by its address, in the application and on a server with two ranks; a list of it."""
+    for name in [name for name in os.environ if name.lower().endswith("_proxy")]:
+        del os.environ[name]
+    os.environ["POINTFRONT_CACHE"], os.environ["POINTFRONT_REMOTE_TIMEOUT"] = "off", "5"
+    with served(os.getcwd()) as origin:
+        address = origin + "/cloud.pfront?sig=SECRET"
+        with open("far.pfronts", "w") as listed:
+            listed.write("# the store, by its address\n%s\n" % address)
+        os.environ["POINTFRONT_ADDRESS"] = address
+        try:
+            programs.run(os.environ["POINTFRONT_PARAVIEW"], "--dr",
+                         "--script=" + os.path.join(HERE, "far_panel.py"))
+        finally:
+            if os.path.exists("far_panel.json"):
+                print(open("far_panel.json").read())
+        with_server(programs, python_client("far.py", address, os.path.abspath("far.pfronts")))
+    with open("far_panel.json") as file:
+        seen = json.load(file)
+    points = "{:,}".format(int(os.environ["POINTFRONT_POINTS"]))
+    if not seen["frame"][1].endswith(" of " + points) or not seen["store"].startswith(points):
+        raise AssertionError("by the panel: %s" % seen)
+    compare("far", "tool")
+    compare("far-list", "tool")
+    told = open("server.log").read()
+    if not 1 <= told.count("ERR|") <= 2 or "none.pfront" not in told or "SECRET" in told:
+        raise AssertionError("what is said of an address that names nothing: " + told)
 
 
 def written(programs):

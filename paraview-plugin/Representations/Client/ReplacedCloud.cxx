@@ -41,7 +41,7 @@ vtkSMProxy* inputOf(vtkSMProxy* proxy)
 bool isCloud(vtkSMProxy* source)
 {
   const std::string name = source && source->GetXMLName() ? source->GetXMLName() : "";
-  return name == "PointFrontReader" || name == "PointFrontFiles";
+  return name == "PointFrontReader" || name == "PointFrontFiles" || name == "PointFrontRemoteCloud";
 }
 
 void letReplaceCloud(vtkSMProxy* filter)

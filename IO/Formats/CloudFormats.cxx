@@ -8,6 +8,7 @@
 #include "NormalsOnLoad.h"
 
 #ifdef POINTFRONT_REMOTE
+#include "Credentials.h"
 #include "RemoteOpener.h"
 #endif
 
@@ -29,6 +30,17 @@ void addCloudFormats()
   formats.add(withNormalsOnLoad(std::make_shared<COPCFormat>()));
   formats.add(withNormalsOnLoad(std::make_shared<EPTTreeFormat>(&LASFormat::openBytes)));
   formats.add(std::make_shared<LAZGlanceFormat>()); // last: a folder with nothing better in it
+}
+
+Result<void> learnCredentialsOfServers([[maybe_unused]] const std::string& text)
+{
+#ifdef POINTFRONT_REMOTE
+  addRemoteOpeners(); // the environment comes first
+  return learnCredentials(text);
+#else
+  return makeError(Error::Kind::Unsupported,
+    "this build opens files only (POINTFRONT_REMOTE=OFF): it has no use for headers and tokens");
+#endif
 }
 
 } // namespace pointfront

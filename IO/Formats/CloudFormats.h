@@ -1,5 +1,9 @@
 #pragma once
 
+#include "pointfront/Base/Result.h"
+
+#include <string>
+
 namespace pointfront
 {
 
@@ -7,5 +11,10 @@ namespace pointfront
 /// and folders of LAS and LAZ files at a glance; and what opens addresses (http, https, s3), unless
 /// the build leaves that out. Again is once.
 void addCloudFormats();
+
+/// Tells the openers of addresses what servers ask for: headers by server, and addresses by their
+/// marks, as in the environment's POINTFRONT_FAR (docs/user/remote.md). Errors  BadArgument;
+/// Unsupported: the build opens files only.
+Result<void> learnCredentialsOfServers(const std::string& text);
 
 } // namespace pointfront

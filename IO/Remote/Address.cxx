@@ -195,6 +195,18 @@ std::string rememberAddress(const Address& address)
   return form;
 }
 
+void rememberAddress(const Address& address, const std::string& mark)
+{
+  const ForkHold hold;
+  remembered(hold).secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query };
+}
+
+bool isMark(std::string_view text)
+{
+  return text.size() == 17 && text.substr(0, 1) == hashMark &&
+    text.find_first_not_of("0123456789abcdef", 1) == std::string_view::npos;
+}
+
 std::string addressOf(const std::string& text)
 {
   const ForkHold hold;

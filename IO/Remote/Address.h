@@ -37,6 +37,10 @@ struct Address
 
 /// Notes an address, so that addressOf() finds it by its public form. Returns the latter.
 std::string rememberAddress(const Address& address);
+/// As rememberAddress(), with the mark that another process has made for it.
+void rememberAddress(const Address& address, const std::string& mark);
+/// Whether it is a mark as public forms have, such as "~1f3a9c2e44d07b61".
+bool isMark(std::string_view text);
 /// The full address behind a public form that this process has remembered, or the text itself. What
 /// lies beside a remembered address, with the same mark, has the same user, password and query.
 std::string addressOf(const std::string& text);

@@ -33,9 +33,10 @@ void dropPast(Entries& entries, Clock::time_point now)
 
 std::shared_ptr<const ByteOpener> openerOfProcess()
 {
+  const RemoteOptions options = RemoteOptions::ofEnvironment();
   const ForkHold hold;
-  static auto* const opener = new std::shared_ptr<const ByteOpener>(
-    std::make_shared<const RemoteOpener>(RemoteOptions::ofEnvironment()));
+  static auto* const opener =
+    new std::shared_ptr<const ByteOpener>(std::make_shared<const RemoteOpener>(options));
   return *opener;
 }
 } // namespace
@@ -206,7 +207,18 @@ Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
   {
     return address.error();
   }
+  if (options_.fault)
+  {
+    return *options_.fault;
+  }
   const std::string name = rememberAddress(*address);
+  if (isMark(address->query))
+  {
+    return makeError(Error::Kind::BadArgument,
+      "'" + name +
+        "' stands for an address with a user, a password or a query that this process "
+        "does not know; open it by the whole address");
+  }
   Tables& tables = tables_->get([] { return std::make_unique<Tables>(); });
   for (;;)
   {

@@ -1,5 +1,7 @@
 #include "RemoteOptions.h"
 
+#include "Credentials.h"
+
 #include "pointfront/Disk/SmallFile.h"
 
 #include <algorithm>
@@ -211,6 +213,10 @@ RemoteOptions RemoteOptions::ofEnvironment()
     }
   }
   options.refusePrivate = setting("POINTFRONT_REMOTE_PRIVATE") == "refuse";
+  if (const Result<void> learnt = learnCredentialsOfEnvironment(); !learnt)
+  {
+    options.fault = learnt.error();
+  }
   return options;
 }
 
@@ -222,8 +228,9 @@ Result<Request> requestOf(const Address& address)
   }
   Request request;
   request.address = address;
+  request.headers = headersFor(address.origin());
   const std::string file = setting("POINTFRONT_HTTP_HEADERS");
-  if (!file.empty())
+  if (request.headers.empty() && !file.empty())
   {
     Result<std::vector<std::string>> lines = sectionOf(file, address.origin());
     if (!lines)

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -23,8 +24,10 @@ struct RemoteOptions
   /// Servers that know no ranges are read whole up to this size.
   std::uint64_t wholeAtMost = std::uint64_t(64) << 20;
 
+  std::optional<Error> fault; ///< a fault of the environment: the error of each opening
+
   /// The defaults, with what the environment says: POINTFRONT_REMOTE_TIMEOUT (seconds),
-  /// POINTFRONT_REMOTE_PRIVATE=refuse.
+  /// POINTFRONT_REMOTE_PRIVATE=refuse, and POINTFRONT_FAR (Credentials.h).
   static RemoteOptions ofEnvironment();
 };
 
@@ -37,7 +40,8 @@ struct Request
 };
 
 /// The request of an address of any scheme.
-/// http, https  user and password of the address; the lines "Name: value" of the file that
+/// http, https  user and password of the address; headers of Credentials.h, or else the lines
+/// "Name: value" of the file that
 ///              POINTFRONT_HTTP_HEADERS names, below a line "[https://host]" each, for that origin.
 /// s3           "s3://bucket/key", with region, endpoint and keys of the environment (AWS_REGION,
 ///              AWS_ENDPOINT_URL, AWS_ACCESS_KEY_ID, AWS_SECRET_ACCESS_KEY, AWS_SESSION_TOKEN,

@@ -125,6 +125,12 @@ class GoodServers(RemoteTest):
         self.assertTrue(away)
         self.assertFalse([seen for seen in away if seen["authorization"]])
 
+    def test_an_environment_that_says_nothing_sound(self):
+        refused = self.refuse(1, "info", self.address(""),
+                              environment=environment(POINTFRONT_FAR="X: SECRET-LINE"))
+        self.assertIn("POINTFRONT_FAR", refused.err)
+        self.assertNotIn("SECRET-LINE", refused.err)
+
     def test_a_query_is_no_part_of_what_is_said(self):
         outcome = self.succeed("info", f"{self.address('')}?{SECRET}", "--json",
                                environment=environment())

@@ -5,7 +5,7 @@ import json
 import operator
 import os
 
-from . import _arrays, _host, _kernel, _pictures
+from . import _arrays, _far, _host, _kernel, _pictures
 from ._errors import PointFrontError
 from ._queries import KERNEL_OPTIONS, Conditions, box_of, class_numbers
 
@@ -23,23 +23,20 @@ class Cloud:
     len(cloud)  how many points
 
     Opening reads no points. A cloud is a context manager: leaving it lets go of the file. Pickled,
-    it is its absolute path, and is opened again where it is unpickled. A notebook shows a table.
+    it is its absolute path, and is opened again where it is unpickled; of an address, what is not
+    secret. A notebook shows a table.
     """
 
     def __init__(self, path):
         self._store = None
         given = os.fspath(path)
         self._path = given
-        self._given = given  # the tool is another process: it knows no public form of this one's
         self._store = _kernel.StoredCloud(given)
         # As JSON tells it, it has lost what is no UTF-8; it is another for a preview that is gone.
         self._path = (os.path.realpath(given) if os.path.exists(given)
                       else self._store.description["path"])
-
-    @property
-    def _named(self):
-        """As the tool takes it."""
-        return self._given if _is_address(self._given) else self._path
+        if _far.is_address(given):
+            _far.remember(given, self._path)
 
     def close(self):
         """Let go of the file. Arrays and pictures stay."""
@@ -79,7 +76,7 @@ class Cloud:
     @property
     def info(self):
         self._opened()
-        return json.loads(_pictures.run_tool(["info", "--json", self._named]))
+        return json.loads(_pictures.run_tool(["info", "--json", self._path]))
 
     @property
     def crs(self):
@@ -87,8 +84,9 @@ class Cloud:
 
     def __reduce__(self):
         self._opened()
-        named = self._named
-        return open, (named if _is_address(named) else os.path.abspath(named),)
+        path = self._path
+        told = _far.told_to_child(path if _far.is_address(path) else os.path.abspath(path))
+        return _reopened, told
 
     def _repr_html_(self):
         if self._store is None:
@@ -204,7 +202,7 @@ class Cloud:
                   "sphere": None if sphere is None else [*map(float, sphere[0]), float(sphere[1])],
                   "classes": class_numbers(classes) or None, "spacing": spacing, "force": overwrite,
                   **options}
-        return _pictures.export(self._named, os.fspath(path), chosen)
+        return _pictures.export(self._path, os.fspath(path), chosen)
 
     def to_pyvista(self, **query):
         """Points of a region as pyvista.PolyData, of whichever VTK PyVista runs on; `query` as for
@@ -262,7 +260,7 @@ class Cloud:
         options.update(color_by=color_by, view=view, camera=camera, technique=technique,
                        style=style, classes=class_numbers(classes) or None, where=where,
                        error=error, background=background)
-        return _pictures.draw(self._named, path, size, options)
+        return _pictures.draw(self._path, path, size, options)
 
     def show(self, *, size=(1280, 720), title=None):
         """Show the cloud in a window until the user closes it; in a notebook, as a view in the
@@ -272,7 +270,7 @@ class Cloud:
         if _in_notebook():
             from ._page import view_of_cell
 
-            return view_of_cell([self._named], height=size[1])
+            return view_of_cell([self._path], height=size[1])
         self._opened()
         _host.require_vtk("a window is VTK's; screenshot() and `pointfront serve` do without")
         from . import _window
@@ -281,8 +279,8 @@ class Cloud:
         return None
 
 
-def _is_address(name):
-    return isinstance(name, str) and "://" in name
+def _reopened(path, headers):
+    return open(path, headers=headers and dict(line.split(": ", 1) for line in headers))
 
 
 def _in_notebook():
@@ -295,6 +293,14 @@ def _in_notebook():
     return shell is not None and hasattr(shell, "kernel")
 
 
-def open(path):  # as in gzip.open: the module's name says what
-    """Open a stored cloud; see Cloud. Raises PointFrontError."""
+def open(path, *, headers=None, token=None):  # as in gzip.open: the module's name says what
+    """Open a stored cloud; see Cloud. Raises PointFrontError.
+
+    headers  {"Name": "value"} of requests to the server of an address
+    token    the header "Authorization: Bearer TOKEN"
+
+    Headers and a token are for all clouds of that server which this process opens from then on.
+    """
+    if headers is not None or token is not None:
+        _far.use_headers(path, headers, token)
     return Cloud(path)

@@ -43,6 +43,7 @@ def _loaded():
     pointer = ctypes.c_void_p
     for name, arguments in (
             ("Open", [_BYTES, ctypes.POINTER(pointer), _DOUBLES, PROGRESS]),
+            ("Credentials", [_BYTES]),
             ("Points", [pointer, ctypes.POINTER(Query), PROGRESS]),
             ("Build", [_BYTES, ctypes.POINTER(_Array), ctypes.c_size_t, ctypes.c_uint64, PROGRESS]),
             ("Index", [_BYTES, _BYTES, ctypes.c_int, ctypes.c_uint32, PROGRESS]),
@@ -168,6 +169,11 @@ def _arrays(answer):
         memory = _Memory(column["address"], shape, numpy.dtype(column["type"]))
         made.append((column["name"], numpy.asarray(memory)))
     return made
+
+
+def learn_credentials(text):
+    """The text of POINTFRONT_FAR, for this process."""
+    _answer(_library.pointfrontCredentials(text.encode()))
 
 
 class StoredCloud:

@@ -10,6 +10,7 @@ import zlib
 
 import numpy
 
+from . import _far
 from ._errors import PointFrontError, warn
 from ._host import TOOL
 
@@ -76,7 +77,8 @@ def run_tool(arguments, heard=None):
     """
     try:
         tool = subprocess.Popen([TOOL, *map(str, arguments)], stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+                                stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                env=_far.environment(arguments))
     except OSError as problem:
         raise PointFrontError(f"the tool cannot be run: {problem}") from None
     try:

@@ -6,6 +6,7 @@ import tempfile
 
 import numpy
 
+from . import _far
 from ._errors import PointFrontError
 from ._host import TOOL
 
@@ -48,6 +49,7 @@ class FrameStream:
             self._tool = subprocess.Popen(
                 [TOOL, "stream", *map(str, paths), *map(str, arguments)],
                 stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=self._said,
+                env=_far.environment(paths),
                 start_new_session=True)  # Ctrl-C is for this process, which ends the tool then
         except OSError as problem:
             raise PointFrontError(f"the tool cannot be run: {problem}") from None

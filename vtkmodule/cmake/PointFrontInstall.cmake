@@ -82,9 +82,9 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
     configure_file("${from}/${file}.in" "${to}/${file}" @ONLY)
   endforeach ()
   foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _arrays.py _calls.py _classes.py
-      _clouds.py _controls.py _doors.py _errors.py _extracts.py _gate.py _kernel.py _lines.py
-      _meshes.py _orbit.py _page.py _pictures.py _plotting.py _progress.py _queries.py _remote.py
-      _serve.py _stream.py _window.py py.typed)
+      _clouds.py _controls.py _doors.py _errors.py _extracts.py _far.py _gate.py _kernel.py
+      _lines.py _meshes.py _orbit.py _page.py _pictures.py _plotting.py _progress.py _queries.py
+      _remote.py _serve.py _stream.py _window.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
     list(APPEND package_files "${file}")
   endforeach ()

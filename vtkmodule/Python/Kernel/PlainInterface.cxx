@@ -254,6 +254,16 @@ char* pointfrontClassNames()
     });
 }
 
+char* pointfrontCredentials(const char* text)
+{
+  return answer(
+    [&]() -> Result<Json>
+    {
+      const Result<void> learnt = pointfront::learnCredentialsOfServers(text);
+      return learnt ? Result<Json>(Json(nullptr)) : learnt.error();
+    });
+}
+
 char* pointfrontOpen(
   const char* path, PointFrontCloud** cloud, double bounds[6], PointFrontProgress progress)
 {

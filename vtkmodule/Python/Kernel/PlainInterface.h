@@ -50,6 +50,10 @@ extern "C"
   /// Answers the names of classes 0 to 255, "ground" ...
   char* pointfrontClassNames();
 
+  /// Headers for servers, and addresses by their marks: the text of POINTFRONT_FAR
+  /// (docs/user/remote.md). Answers null of JSON.
+  char* pointfrontCredentials(const char* text);
+
   /// `cloud` gets the opened cloud, or null; `bounds` its lowest and highest corner. Answers
   /// "path", "points", "attributes", "computed" (those of them that are made while points are
   /// read), "classes" (pairs of number and name) and "deep" (whether "rgb" has values above 255).

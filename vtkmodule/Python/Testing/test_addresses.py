@@ -1,5 +1,7 @@
 """Clouds by their address: points, pictures and files are those of the local file."""
 
+import json
+import multiprocessing
 import os
 import pathlib
 import pickle
@@ -11,6 +13,7 @@ import tempfile
 import threading
 import time
 import unittest
+import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "Testing/Support"))
@@ -23,6 +26,8 @@ os.environ["POINTFRONT_REMOTE_TIMEOUT"] = "3"
 import numpy
 import pointfront
 from far_server import FarServer
+from far_weather import TOKEN
+from pointfront._stream import FrameStream
 
 HERE = "127.0.0.1"
 SECRET = "sig=VERY-SECRET"
@@ -56,7 +61,48 @@ class Addresses(unittest.TestCase):
             for cloud, file in zip((near, far), files):
                 cloud.export(file, overwrite=True)
             self.assertEqual(files[0].read_bytes(), files[1].read_bytes())
-            self.assertEqual(len(pickle.loads(pickle.dumps(far))), len(near))
+            pickled = pickle.dumps(far)
+            self.assertNotIn(b"VERY-SECRET", pickled)
+            self.assertEqual(len(pickle.loads(pickled)), len(near))
+
+    def test_tools_are_told_secrets_by_nothing_that_others_see(self):
+        far = pointfront.open(f"{self.origin}/~bearer/a.pfront?{SECRET}", token=TOKEN)
+        stream = FrameStream([far.path])
+        self.addCleanup(stream.close)
+        words = pathlib.Path(f"/proc/{stream._tool.pid}/cmdline").read_text()
+        self.assertIn("/~bearer/a.pfront", words)
+        for secret in ("VERY-SECRET", TOKEN):
+            self.assertNotIn(secret, words)
+        while not stream.frame(size=(64, 48), wait_ms=100).settled:
+            pass
+        self.assertEqual(far.info["points"], len(far))
+        self.assertEqual(far.screenshot(size=(64, 48)).pixels.shape, (48, 64, 3))
+        with urllib.request.urlopen(f"{self.origin}/~log") as log:
+            asked = [one["path"] for one in json.load(log)["requests"]]
+        self.assertTrue(asked and all(path.endswith(SECRET) for path in asked))
+
+    def test_a_spawned_child_opens_it_by_what_its_parent_knows(self):
+        cloud = pointfront.open(f"{self.origin}/~bearer/a.pfront?{SECRET}", token=TOKEN)
+        child = multiprocessing.get_context("spawn").Process(target=len, args=(cloud,))
+        child.start()
+        child.join(60)
+        self.assertEqual(child.exitcode, 0)
+
+    def test_headers_are_those_of_their_server(self):
+        address = f"{self.origin}/~bearer/a.pfront"
+        with self.assertRaisesRegex(pointfront.PointFrontError, "401"):
+            pointfront.open(address + "?1", token="another")
+        cloud = pointfront.open(address + "?2", headers={"Authorization": "Bearer " + TOKEN})
+        self.assertEqual(len(cloud.points()["position"]), len(cloud))
+        for wrong in ({"X": "a\nY: b"}, {"a b": "c"}):
+            with self.assertRaises(pointfront.PointFrontError):
+                pointfront.open(address, headers=wrong)
+        with self.assertRaisesRegex(pointfront.PointFrontError, "addresses"):
+            pointfront.open(self.store, token=TOKEN)
+
+    def test_a_mark_that_nobody_knows(self):
+        with self.assertRaisesRegex(pointfront.PointFrontError, "whole address"):
+            pointfront.open(f"{self.origin}/a.pfront?~0123456789abcdef")
 
     def test_an_interrupt_ends_the_wait_for_a_silent_server(self):
         with socket.create_server((HERE, 0)) as silent:

@@ -1,0 +1,61 @@
+#include "Address.h"
+#include "Credentials.h"
+#include "RemoteOptions.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+TEST(Credentials, HeadersGoToTheirServerAlone)
+{
+  ASSERT_TRUE(learnCredentials("[https://One.example]\nAuthorization: Bearer a\nX-Key: 1\n"
+                               "[http://two.example:81]\nX-Key: 2"));
+  const auto headersOf = [](const char* text)
+  {
+    const auto request = requestOf(*Address::parse(text));
+    return request ? request->headers : std::vector<std::string>{ request.error().what };
+  };
+  EXPECT_EQ(headersOf("https://one.example/a"),
+    (std::vector<std::string>{ "Authorization: Bearer a", "X-Key: 1" }));
+  EXPECT_EQ(headersOf("http://two.example:81/b"), std::vector<std::string>{ "X-Key: 2" });
+  for (const char* const other : { "http://one.example/a", "https://two.example:81/b" })
+  {
+    EXPECT_TRUE(headersOf(other).empty()) << other;
+  }
+  ASSERT_TRUE(learnCredentials("[https://one.example]")); // it has none any more
+  EXPECT_TRUE(headersOf("https://one.example/a").empty());
+  EXPECT_FALSE(headersOf("http://two.example:81/b").empty());
+}
+
+TEST(Credentials, AMarkOfAnotherProcessLeadsToItsAddress)
+{
+  const std::string named = "https://three.example/a.pfront?~00112233445566ff";
+  EXPECT_EQ(addressOf(named), named);
+  ASSERT_TRUE(
+    learnCredentials("~00112233445566ff https://me:pass@three.example/a.pfront?sig=secret"));
+  EXPECT_EQ(addressOf(named), "https://me:pass@three.example/a.pfront?sig=secret");
+  const std::string own = rememberAddress(*Address::parse(addressOf(named)));
+  EXPECT_EQ(own.find("secret"), std::string::npos);
+  EXPECT_EQ(addressOf(own), addressOf(named));
+}
+
+TEST(Credentials, WhatIsWrongIsAnErrorWithoutSecrets)
+{
+  for (const std::string wrong : { "Authorization: Bearer secret", "[https://h.example/secret]",
+         "[secret]", "[https://h.example]\nsecret", "[https://h.example]\n: secret",
+         "[https://h.example]\nA secret: b", "[https://h.example]\nA: secret\rB: c",
+         "~0123 https://h.example/secret", "~00112233445566ff secret" })
+  {
+    const Result<void> learnt = learnCredentials(wrong);
+    ASSERT_FALSE(learnt) << wrong;
+    EXPECT_EQ(learnt.error().kind, Error::Kind::BadArgument);
+    EXPECT_EQ(learnt.error().what.find("secret"), std::string::npos) << learnt.error().what;
+    EXPECT_TRUE(headersFor("https://h.example").empty());
+  }
+}
+
+} // namespace pointfront

@@ -1,0 +1,70 @@
+"""Headers and secret addresses: this process knows them, its tools by their environment."""
+
+import os
+import sys
+import urllib.parse
+
+from . import _kernel
+from ._errors import PointFrontError
+
+VARIABLE = "POINTFRONT_FAR"  # for its user alone, unlike a command line
+
+_headers = {}  # lines by origin
+_addresses = {}  # whole addresses by their public forms, which name them to the tool
+
+
+def is_address(name):
+    return isinstance(name, str) and "://" in name
+
+
+def origin_of(address):
+    """Scheme, host and port."""
+    parts = urllib.parse.urlsplit(address)
+    return f"{parts.scheme.lower()}://{parts.netloc.rsplit('@', 1)[-1].lower()}"
+
+
+def use_headers(address, headers, token=None):
+    """Headers of all requests to the server of an address from now on."""
+    lines = [f"{name}: {value}" for name, value in dict(headers or {}).items()]
+    if token is not None:
+        lines.append(f"Authorization: Bearer {token}")
+    if not is_address(address) or address.split(":")[0].lower() not in ("http", "https"):
+        raise PointFrontError("headers and tokens are for addresses of http and https")
+    if any(not line.isprintable() or line.startswith("[") for line in lines):
+        raise PointFrontError("a header or a token has characters that no request can have")
+    origin = origin_of(address)
+    _kernel.learn_credentials("\n".join([f"[{origin}]", *lines]))
+    _headers[origin] = lines
+
+
+def remember(address, public_form):
+    """Under which the tool gets it. What is not secret needs nobody to remember it."""
+    if "?~" in public_form and "?~" not in address:
+        _addresses[public_form] = address
+
+
+def told_to_child(path):
+    """The path and the headers that open it where it is unpickled.
+
+    A pickle is a file, or goes through one: it has what is not secret. Only a child that
+    multiprocessing is just starting (`spawn`) gets all, by the pipe from its parent.
+    """
+    context = sys.modules.get("multiprocessing.context")
+    if not is_address(path) or context is None or context.get_spawning_popen() is None:
+        return path, None
+    return _addresses.get(path, path), _headers.get(origin_of(path))
+
+
+def environment(words):
+    """The environment of a tool with these words on its command line; None: this process's."""
+    lines = []
+    for word in filter(is_address, map(str, words)):
+        if word in _addresses:
+            lines.append(f"{word.rsplit('?', 1)[-1]} {_addresses[word]}")
+    for origin in {origin_of(word) for word in map(str, words) if is_address(word)}:
+        if origin in _headers:
+            lines += [f"[{origin}]", *_headers[origin]]
+    if not lines:
+        return None
+    given = os.environ.get(VARIABLE)
+    return {**os.environ, VARIABLE: "\n".join([*([given] if given else []), *lines])}

@@ -373,6 +373,17 @@ std::vector<std::byte> LASExport::header(const LASTotals& totals, std::uint32_t 
   return bytes;
 }
 
+std::vector<std::byte> LASExport::beginning(const std::vector<MetadataRecord>& all) const
+{
+  std::vector<std::byte> bytes(headerBytes());
+  for (const MetadataRecord& record : all)
+  {
+    const std::vector<std::byte> text = composeLASRecord(record, false);
+    bytes.insert(bytes.end(), text.begin(), text.end());
+  }
+  return bytes;
+}
+
 std::vector<std::byte> composeLASRecord(const MetadataRecord& record, bool extended)
 {
   const std::size_t head = extended ? lasExtendedRecordHeaderBytes : lasRecordHeaderBytes;

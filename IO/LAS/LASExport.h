@@ -66,6 +66,8 @@ struct LASExport
   bool lostGeoKeys = false;
 
   std::size_t headerBytes() const;
+  /// Room for the header, and `all` behind it as they stand in a file.
+  std::vector<std::byte> beginning(const std::vector<MetadataRecord>& all) const;
   /// Errors   BadArgument with `path`: coordinates or attributes that no LAS record can hold.
   static Result<LASExport> plan(const SinkDescription& description, const std::string& path,
     Formats formats = Formats::Smallest);

@@ -106,12 +106,7 @@ Result<void> LASWriter::State::writeBeginning()
     }
     all.push_back(std::move(*compression));
   }
-  std::vector<std::byte> bytes(plan.headerBytes());
-  for (const MetadataRecord& record : all)
-  {
-    const std::vector<std::byte> text = composeLASRecord(record, false);
-    bytes.insert(bytes.end(), text.begin(), text.end());
-  }
+  const std::vector<std::byte> bytes = plan.beginning(all);
   recordCount = static_cast<std::uint32_t>(all.size());
   pointOffset = static_cast<std::uint32_t>(bytes.size());
   if (auto done = write(bytes); !done || !laszip)

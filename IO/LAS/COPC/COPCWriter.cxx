@@ -233,12 +233,7 @@ Result<void> COPCWriter::State::writeBeginning()
   all.push_back({ owner, 1, "COPC info", std::vector<std::byte>(infoBytes) });
   all.push_back(std::move(*compression));
   all.insert(all.end(), plan.records.begin(), plan.records.end());
-  std::vector<std::byte> bytes(plan.headerBytes());
-  for (const MetadataRecord& record : all)
-  {
-    const std::vector<std::byte> text = composeLASRecord(record, false);
-    bytes.insert(bytes.end(), text.begin(), text.end());
-  }
+  std::vector<std::byte> bytes = plan.beginning(all);
   recordCount = static_cast<std::uint32_t>(all.size());
   pointOffset = static_cast<std::uint32_t>(bytes.size());
   bytes.resize(bytes.size() + 8);

@@ -72,11 +72,7 @@ std::uint32_t LAZIntegerDecoder::symbol(LAZSymbolModel& model)
   value_ -= lower;
   length_ = upper - lower;
   renormalise();
-  ++model.counts[found];
-  if (--model.untilUpdate == 0)
-  {
-    model.update();
-  }
+  model.learn(found);
   return found;
 }
 
@@ -92,13 +88,9 @@ std::uint32_t LAZIntegerDecoder::bit(LAZBitModel& model)
   else
   {
     length_ = bound;
-    ++model.zeroCount;
   }
   renormalise();
-  if (--model.untilUpdate == 0)
-  {
-    model.update();
-  }
+  model.learn(one);
   return one ? 1 : 0;
 }
 

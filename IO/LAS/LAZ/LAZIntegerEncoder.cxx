@@ -67,11 +67,7 @@ void LAZIntegerEncoder::symbol(LAZSymbolModel& model, std::uint32_t value)
   advance(lower);
   length_ = upper - lower;
   renormalise();
-  ++model.counts[value];
-  if (--model.untilUpdate == 0)
-  {
-    model.update();
-  }
+  model.learn(value);
 }
 
 void LAZIntegerEncoder::bit(LAZBitModel& model, bool one)
@@ -85,13 +81,9 @@ void LAZIntegerEncoder::bit(LAZBitModel& model, bool one)
   else
   {
     length_ = bound;
-    ++model.zeroCount;
   }
   renormalise();
-  if (--model.untilUpdate == 0)
-  {
-    model.update();
-  }
+  model.learn(one);
 }
 
 void LAZIntegerEncoder::bits(std::uint32_t value, std::uint32_t count)

@@ -19,6 +19,15 @@ struct LAZSymbolModel
   static constexpr std::uint32_t shift = 15; ///< precision of probabilities
 
   explicit LAZSymbolModel(std::uint32_t symbols);
+  /// Learns that `symbol` came.
+  void learn(std::uint32_t symbol)
+  {
+    ++counts[symbol];
+    if (--untilUpdate == 0)
+    {
+      update();
+    }
+  }
   void update();
 
   std::vector<std::uint32_t> counts;
@@ -33,6 +42,15 @@ struct LAZBitModel
 {
   static constexpr std::uint32_t shift = 13; ///< precision of probabilities
 
+  /// Learns that the bit was one, or zero.
+  void learn(bool one)
+  {
+    zeroCount += one ? 0 : 1;
+    if (--untilUpdate == 0)
+    {
+      update();
+    }
+  }
   void update();
 
   std::uint32_t zeroCount = 1;

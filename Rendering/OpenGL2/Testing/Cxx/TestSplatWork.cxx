@@ -109,7 +109,7 @@ struct Loading
 {
   double drawn = 0.0; ///< points and triangles, of all frames together
   int gained = 0; ///< frames that had more points than the one before
-  vtkTypeInt64 points = 0; ///< of the last frame
+  vtkTypeInt64 points = 0; ///< those of the last frame
 
   /// Draws until `loads` says that no more comes, or the time is over.
   Loading(Scene& scene, const std::function<vtkTypeInt64()>& shown,

@@ -7,7 +7,7 @@ import os
 
 from . import _arrays, _far, _host, _kernel, _pictures
 from ._errors import PointFrontError
-from ._queries import KERNEL_OPTIONS, Conditions, box_of, class_numbers
+from ._queries import KERNEL_OPTIONS, Conditions, class_numbers
 
 
 class Cloud:
@@ -195,13 +195,12 @@ class Cloud:
         options    others of `pointfront export` in snake case: color_depth=16, polygon="a.geojson"
 
         Returns how many points were written. What was wrong and survived is a PointFrontWarning.
-        Raises PointFrontError; KeyboardInterrupt, with nothing left behind.
+        Raises PointFrontError, and ValueError and TypeError as points() does; KeyboardInterrupt,
+        with nothing left behind.
         """
         self._opened()
-        chosen = {"box": None if box is None else box_of(box), "crs": crs, "where": where,
-                  "sphere": None if sphere is None else [*map(float, sphere[0]), float(sphere[1])],
-                  "classes": class_numbers(classes) or None, "spacing": spacing, "force": overwrite,
-                  **options}
+        conditions = Conditions(self, box, sphere, None, classes, where, spacing, None)
+        chosen = {**conditions.options(), "crs": crs, "force": overwrite, **options}
         return _pictures.export(self._path, os.fspath(path), chosen)
 
     def to_pyvista(self, **query):

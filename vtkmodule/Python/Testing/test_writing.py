@@ -178,6 +178,38 @@ class Writing(unittest.TestCase):
         self.assertEqual({w.filename for w in caught}, {__file__})
         self.assertTrue(issubclass(caught[0].category, pointfront.PointFrontWarning))
 
+    def test_a_folder_of_stores_is_one_cloud(self):
+        folder = self.folder / "stores"
+        folder.mkdir()
+        for name in ("a.pfront", "b.pfront"):
+            shutil.copyfile(self.store, folder / name)
+        with pointfront.open(folder) as cloud:
+            self.assertEqual(cloud.info["points"], 2 * len(self.cloud))
+            self.assertEqual([a["name"] for a in cloud.info["attributes"]], cloud.attributes)
+            self.assertEqual(cloud.crs, self.cloud.crs)
+            self.assertIn(f"{2 * len(self.cloud):,}", cloud._repr_html_())
+
+    def test_an_opened_cloud_says_what_it_lacks(self):
+        """A folder of LAZ files gives a first look: four points, which are not those of the files.
+        """
+        folder = self.folder / "tiles"
+        folder.mkdir()
+        shutil.copyfile(CLOUD, folder / "a.laz")
+        with self.assertWarnsRegex(pointfront.PointFrontWarning, "tiles: .*4 of 174151") as said:
+            cloud = pointfront.open(folder)
+        self.assertEqual(said.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # it is said once
+            self.assertEqual(len(cloud.points()["id"]), 4)
+            cloud.screenshot(size=(64, 48))
+            with self.assertRaisesRegex(pointfront.PointFrontError, "would lack"):
+                cloud.export(self.folder / "tiles.las")
+
+    def test_a_picture_says_what_it_lacks(self):
+        with self.assertWarnsRegex(pointfront.PointFrontWarning, "coarser.*point-budget") as said:
+            self.cloud.screenshot(size=(64, 48), error=0.1, point_budget=1000)
+        self.assertEqual(said.filename, __file__)
+
     def test_a_folder_of_files_is_an_input(self):
         folder = self.folder / "files"
         (folder / "deeper").mkdir(parents=True)

@@ -2,19 +2,27 @@
 
 #include "CancelSignal.h"
 #include "COPCMemory.h"
+#include "FarOptions.h"
 #include "KnownWords.h"
+#include "PeakMemory.h"
 #include "ProgressDisplay.h"
 #include "SinkFormats.h"
 #include "Values.h"
+#include "WholeFile.h"
 
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -43,6 +51,8 @@ void ExportCommand::declare(CLI::App& program)
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")
     ->check(knownWords({ "auto", "plain", "json", "none" }));
+  app_->add_option("--stats", statisticsPath_, "Write what was done as JSON")
+    ->type_name("FILE.json");
 }
 
 void ExportCommand::declareCOPC()
@@ -95,7 +105,14 @@ Result<void> ExportCommand::checkTarget(const StoredCloud& store) const
   {
     reads.push_back(file);
   }
-  return checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
+  if (Result<void> checked =
+        checkOutputTarget({ outputPath_, sinkKind(outputPath_), replace_ }, reads);
+      !checked || statisticsPath_.empty())
+  {
+    return checked;
+  }
+  reads.push_back(outputPath_);
+  return checkOutputTarget({ statisticsPath_, FileKind::Statistics, true }, reads);
 }
 
 Result<void> ExportCommand::shareMemory(const StoredCloud& store, ExportSelection& selection)
@@ -144,8 +161,22 @@ Result<std::uint64_t> ExportCommand::write(
   return written;
 }
 
+std::string ExportCommand::statistics(std::uint64_t points, double seconds) const
+{
+  nlohmann::ordered_json object;
+  object["points_written"] = points;
+  object["seconds"] = seconds;
+  std::error_code failure;
+  const std::uintmax_t bytes = std::filesystem::file_size(outputPath_, failure);
+  object["bytes_written"] = failure ? 0 : bytes;
+  object["peak_rss_bytes"] = peakResidentBytes();
+  addTraffic(object);
+  return object.dump(2) + "\n";
+}
+
 Result<void> ExportCommand::run()
 {
+  const auto begin = std::chrono::steady_clock::now();
   const CancelSignal signal(CancelSignal::Mode::Finish);
   Result<std::shared_ptr<const StoredCloud>> store =
     StoredCloudFormats::ofProcess().open(storePath_);
@@ -187,7 +218,10 @@ Result<void> ExportCommand::run()
     warn(name(), outputPath_ + ": no point of the store is selected; the file holds none");
   }
   std::printf("%s: %llu points\n", outputPath_.c_str(), static_cast<unsigned long long>(*points));
-  return {};
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
+  return statisticsPath_.empty()
+    ? Result<void>()
+    : writeWholeFile(statisticsPath_, statistics(*points, taken.count()));
 }
 
 } // namespace pointfront

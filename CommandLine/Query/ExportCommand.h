@@ -27,6 +27,8 @@ private:
   Result<void> checkTarget(const StoredCloud& store) const;
   /// COPC: the reading's part of --memory.
   Result<void> shareMemory(const StoredCloud& store, ExportSelection& selection);
+  /// JSON of --stats.
+  std::string statistics(std::uint64_t points, double seconds) const;
   /// Gives how many points the file has; warns of what it could not keep.
   Result<std::uint64_t> write(const StoredCloud& store, const ExportSelection& selection);
 
@@ -37,6 +39,7 @@ private:
   SinkChoice sinkChoice_;
   std::uint64_t memoryBytes_ = 0; ///< 0: not given
   bool replace_ = false;
+  std::string statisticsPath_; ///< empty: not given
   std::string progress_ = "auto";
 };
 

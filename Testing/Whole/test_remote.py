@@ -77,6 +77,21 @@ class GoodServers(RemoteTest):
             with self.subTest(weather):
                 self.assert_served(weather)
 
+    def test_an_export_says_what_came_from_servers(self):
+        facts = self.folder / "facts.json"
+        for cloud, far in ((self.store, False), (self.address(""), True)):
+            out = self.folder / "out.las"
+            self.succeed("export", cloud, "-o", out, "--force", "--stats", facts,
+                         environment=environment())
+            said = json.loads(facts.read_text())
+            self.assertEqual(said["points_written"], len(self.expected.splitlines()) - 1)
+            self.assertEqual(said["bytes_written"], out.stat().st_size)
+            self.assertEqual(said["requests"] > 0, far)
+            self.assertEqual(said["bytes_fetched"] > said["bytes_written"] / 10, far)
+            self.assertEqual((said["retries"], said["cache_hits"]), (0, 0))
+        for path in (out, self.store):  # neither a target nor a source
+            self.refuse(1, "export", self.store, "-o", out, "--force", "--stats", path)
+
     def test_info_and_render(self):
         address = self.address("")
         facts = self.succeed("info", address, "--json", environment=environment()).json

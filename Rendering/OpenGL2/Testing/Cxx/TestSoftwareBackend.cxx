@@ -6,6 +6,7 @@
 #include <vtkEDLShading.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
+#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkLookupTable.h>
 #include <vtkOpenGLFXAAPass.h>
@@ -15,6 +16,7 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkSSAOPass.h>
+#include <vtkWindowToImageFilter.h>
 
 #include <array>
 #include <set>
@@ -182,7 +184,18 @@ TEST(SoftwareBackend, APosterOfTilesIsThatOfOpenGL)
   const auto poster = [&](int backend)
   {
     scene.with(backend);
-    return scene.poster(3, 2);
+    vtkNew<vtkWindowToImageFilter> filter;
+    filter->SetInput(scene.window);
+    filter->SetScale(3, 2);
+    filter->ReadFrontBufferOff();
+    filter->Update();
+    vtkImageData* image = filter->GetOutput();
+    Picture picture;
+    picture.width = image->GetDimensions()[0];
+    picture.height = image->GetDimensions()[1];
+    const auto* bytes = static_cast<unsigned char*>(image->GetScalarPointer());
+    picture.rgb.assign(bytes, bytes + 3 * std::size_t(picture.width) * picture.height);
+    return picture;
   };
   const Picture gl = poster(vtkPointFrontMapper::OPENGL);
   const Picture software = poster(vtkPointFrontMapper::SOFTWARE);

@@ -37,7 +37,8 @@ FileKind kindOfText(std::string_view text)
   const char begin = first == std::string_view::npos ? ' ' : text[first];
   if (begin == '{' || begin == '[')
   {
-    return contains(text, "\"points_drawn\"") ? FileKind::Statistics : FileKind::Other;
+    const bool known = contains(text, "\"points_drawn\"") || contains(text, "\"points_written\"");
+    return known ? FileKind::Statistics : FileKind::Other;
   }
   return startsWith(text, "frame,ms,") ? FileKind::FrameTable : FileKind::Text;
 }

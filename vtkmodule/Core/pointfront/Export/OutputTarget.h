@@ -20,7 +20,7 @@ enum class FileKind
   PCD,
   Text, ///< rows of numbers, as far as anyone can tell: text that is none of the others
   Picture, ///< PNG, JPEG, TIFF, BMP
-  Statistics, ///< JSON that `render` and `bench` wrote
+  Statistics, ///< JSON that `render`, `bench` and `export` wrote
   FrameTable, ///< CSV that `bench` wrote
   Other
 };

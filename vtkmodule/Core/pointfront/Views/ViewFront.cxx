@@ -281,13 +281,21 @@ void ViewFront::setLimits(const FrameRequest& demand)
   {
     // All clouds share them, at one error.
     const WindowCost& cost = *window_->window->cost;
-    const std::uint64_t all = cost.pointsFor(frameMs, fewestPoints);
+    const bool still = demand.view == motionView_ && frameMs == motionMs_;
+    motionView_ = demand.view;
+    motionMs_ = frameMs;
+    const std::uint64_t all =
+      std::max(motionPoints_.next(cost.pointsFor(frameMs, fewestPoints), still), cost.heldPoints());
     const std::uint64_t affordable =
       std::max<std::uint64_t>(fewestPoints, all - std::min(cost.beside(), 2 * all / 5));
     std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.most : limits.pointBudget;
     most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
     const auto moves = static_cast<double>(cost.movesFor(frameMs)) / clouds;
     limits.movesPerFrame = std::max(fewestMoves, static_cast<std::uint32_t>(moves));
+  }
+  else
+  {
+    motionMs_ = 0.0;
   }
   readShares(demand);
 }

@@ -4,6 +4,7 @@
 #include "pointfront/Views/ExpectedNodes.h"
 #include "pointfront/Views/HierarchyPiece.h"
 #include "pointfront/Views/OtherPieces.h"
+#include "pointfront/Views/SteadyPoints.h"
 #include "pointfront/Views/WindowDemand.h"
 
 #include "pointfront/Front/DetailSelection.h"
@@ -153,6 +154,9 @@ private:
   double viewportPx_ = 0.0;
   FrontDelta delta_;
   FrontLimits limits_;
+  SteadyPoints motionPoints_; ///< for frames in motion whose time is limited
+  View motionView_; ///< the last view of these
+  double motionMs_ = 0.0; ///< that it was allowed; 0: the last frame was none of these
   // Claims on budgets that this view shares with others: memory (in bytes), and the window's.
   SharedDemand::Claim memory_;
   std::unique_ptr<WindowClaims> window_;

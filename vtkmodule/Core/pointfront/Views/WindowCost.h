@@ -61,7 +61,13 @@ public:
     const std::uint64_t points = affordable >= drawn
       ? affordable - fill
       : static_cast<std::uint64_t>(share * double(affordable));
-    return std::max({ floorPoints, points, held_ });
+    return std::max(floorPoints, points);
+  }
+  /// Points that a frame may have whatever its time, because fewer would not be faster.
+  std::uint64_t heldPoints() const
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return held_;
   }
   /// As the model's, beside the points of the last frame.
   std::uint32_t movesFor(double targetMs) const
@@ -117,7 +123,7 @@ private:
   FrameCostModel model_;
   std::unordered_map<const void*, CloudCost> frame_; ///< costs of the clouds that told theirs
   CloudCost last_;
-  std::uint64_t held_ = 0; ///< points that a frame may have because fewer would not be faster
+  std::uint64_t held_ = 0; ///< heldPoints()
 };
 
 } // namespace pointfront

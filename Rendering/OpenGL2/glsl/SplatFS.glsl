@@ -100,6 +100,9 @@ void main()
     discard;
   }
   float key = s.y + paraboloid * splat.centre.w * s.x;
+#if POINTFRONT_SHAPE == 5
+  key += wallFall * splat.form.w * down; // the nearest top is seen of walls in one plane
+#endif
 #if POINTFRONT_PASS == 2
   float pixel = slackPixels / cameraScale.y * (POINTFRONT_PARALLEL == 1 ? 1.0 : splat.centre.z);
   if (key - (slackRadii * splat.centre.w + pixel) >

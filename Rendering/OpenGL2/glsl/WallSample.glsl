@@ -1,4 +1,5 @@
 // Twin of SplatSamples.h, SplatAt<SplatShape::Wall>.
+const float wallFall = 1.0 / 64.0; // units further back for each unit further down
 uniform vec2 depthRange;
 uniform vec3 upwards;      // camera space, unit
 uniform vec3 wallUpper;

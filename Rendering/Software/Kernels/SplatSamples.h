@@ -214,6 +214,8 @@ struct SplatAt<SplatShape::Sphere, Parallel>
 };
 
 /// `aside` and `down` are places on the wall. All of it is its rim: pushed back by the paraboloid.
+/// Of walls in one plane, as points above each other have, the one is seen whose top is nearest:
+/// which one it is must not hang on how a machine rounds their depths.
 template <bool Parallel>
 struct SplatAt<SplatShape::Wall, Parallel>
 {
@@ -240,8 +242,12 @@ struct SplatAt<SplatShape::Wall, Parallel>
     const LaneMask within =
       (aside <= radius) & (all(0.0f) - radius <= aside) & (all(0.0f) <= down) & (down <= height);
     const LaneMask seen = (nearest <= met.depth) & (met.depth <= farthest);
-    return { all(1.0f), met.depth, within & seen };
+    return { all(1.0f), met.depth + all(wallFall) * down, within & seen };
   }
+  /// Units that a wall lies further back for each unit further down. Tops that are a pixel apart
+  /// differ by 20 times as much as the depth of their walls is rounded.
+  static constexpr float wallFall = 1.0f / 64.0f;
+
   LanePlane<Parallel> plane;
   Lanes rightX, rightY, rightZ, radius, height, upX, upY, upZ, nearest, farthest;
 };

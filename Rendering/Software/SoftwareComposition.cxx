@@ -145,6 +145,7 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
       all.points += drawn.points;
       all.reused += drawn.reused;
       all.standIns += drawn.standIns;
+      all.drawn += drawn.drawn;
       all.blended += drawn.blended;
       all.keptVisible += drawn.keptVisible;
       all.milliseconds += drawn.milliseconds;

@@ -183,6 +183,12 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
     drawAtOnce(items, windowOf(place), drawing);
     return;
   }
+  for (const RasterItem& item : items.items())
+  {
+    // No pixel is wanted of a cloud beside the view.
+    const std::uint32_t points = item.passes.walls() ? 0 : item.item->last - item.item->first;
+    (place.empty() ? drawing.reused : drawing.drawn) += points;
+  }
   drawing.picture.forget();
   if (drawing.fits && items.first())
   {
@@ -273,6 +279,7 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   statistics.reused = drawing.reused;
   statistics.blended = drawing.blended;
   statistics.standIns = drawStandIns(asked, picture, target, store, statistics.blended);
+  statistics.drawn = drawing.drawn + statistics.standIns;
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
   return statistics;

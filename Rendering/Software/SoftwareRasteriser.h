@@ -14,9 +14,11 @@ class ThreadCrew;
 /// The results of a drawing.
 struct RasterStatistics
 {
-  std::uint64_t points = 0; ///< points of the plan that were looked at
-  std::uint64_t reused = 0; ///< points of the plan that the last picture already had
+  std::uint64_t points = 0; ///< points of the plan
+  std::uint64_t reused = 0; ///< in the last picture already, or beside all wanted pixels
   std::uint64_t standIns = 0; ///< points drawn in addition, where a refining view has holes
+  /// Points that were not there, once for each style that draws them; stand-ins and kept ones too.
+  std::uint64_t drawn = 0;
   std::uint64_t blended = 0; ///< points that went through the second pass, stand-ins too
   /// Points drawn in addition to the plan's, because they were visible before
   /// (FramePlan::keepsVisible).

@@ -14,11 +14,15 @@ class PairTest(ToolTest):
             folder = self.folder / str(number)
             folder.mkdir()
             with self.subTest(kind=kind.__name__, case=json.dumps(case)):
-                self.assertIsNone(kind(folder).difference(case))
+                pair = kind(folder)
+                self.addCleanup(pair.close)
+                self.assertIsNone(pair.difference(case))
 
-    def check(self, kind):
+    def check(self, kind, usual=40):
+        """`usual`: how many cases, where the environment does not say it."""
         pair, begin, drawn = kind(self.folder), time.monotonic(), 0
-        for seed in seeds():
+        self.addCleanup(pair.close)
+        for seed in seeds(usual):
             case = pair.case(seed)
             drawn += 1
             with self.subTest(kind=kind.__name__, seed=seed):

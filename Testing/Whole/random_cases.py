@@ -10,8 +10,10 @@ FIRST, COUNT = (int(os.environ.get(f"POINTFRONT_RANDOM_{name}", usual))
                 for name, usual in (("FIRST", "1"), ("COUNT", "40")))
 
 
-def seeds():
-    return range(FIRST, FIRST + COUNT)
+def seeds(usual=COUNT):
+    """`usual`: how many, where the environment does not say it."""
+    count = COUNT if "POINTFRONT_RANDOM_COUNT" in os.environ else usual
+    return range(FIRST, FIRST + count)
 
 
 def chance(rng, share):

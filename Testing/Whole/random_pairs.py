@@ -47,6 +47,9 @@ class Pair:
         self.bounds = None
         self.refused = 0  # cases that no way draws
 
+    def close(self):
+        """No case is drawn any more."""
+
     def succeed(self, *arguments):
         outcome = pointfront(*arguments)
         if outcome.status != 0:

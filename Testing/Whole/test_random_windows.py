@@ -46,6 +46,19 @@ def same_camera(camera, way):
         camera.SetViewAngle(way["view_angle"])
 
 
+def before_eye(points, camera):
+    """Metres from the eye to the nearest point; of a parallel view, whose eye is a plane, along the
+    line of sight to those that it may show."""
+    to = points - camera["position"]
+    if "parallel_scale" not in camera:
+        return numpy.linalg.norm(to, axis=1).min()
+    along = numpy.subtract(camera["focal_point"], camera["position"])
+    along /= numpy.linalg.norm(along)
+    depth = to @ along
+    beside = numpy.linalg.norm(to - numpy.outer(depth, along), axis=1)
+    return numpy.abs(depth[beside < 2 * camera["parallel_scale"]]).min(initial=numpy.inf)
+
+
 class Window:
     """A window, used for one case after the other."""
 
@@ -114,7 +127,7 @@ class Windows(Threads):
         case = super().case(seed)
         points = Points.read(self.folder / f"{self.cloud}.las").positions()
         camera = case["camera"]
-        while numpy.linalg.norm(points - camera["position"], axis=1).min() < NEAREST:
+        while before_eye(points, camera) < NEAREST:
             for end in ("position", "focal_point"):
                 camera[end] = [*camera[end][:2], camera[end][2] + NEAREST]
         return case

@@ -71,6 +71,27 @@ TEST(RasterExtremes, NoPoints)
   EXPECT_EQ(pixelsCovered(scene.draw()), 0u);
 }
 
+/// A cloud above the view, of which the front lists the root: it was counted as drawn in each
+/// frame.
+TEST(RasterExtremes, PointsBesideTheViewAreNotDrawn)
+{
+  PlanOfPoints scene;
+  TestPoint beside;
+  beside.position = { 0.0, 0.0, 50.0 };
+  scene.add({ beside });
+  scene.look({ 0.0, -5.0, 0.0 }, { 0.0, 0.0, 0.0 }, 0.6, 40, 30);
+  SoftwareRasteriser rasteriser;
+  for (int frame = 0; frame < 2; ++frame)
+  {
+    SoftwareTarget target;
+    target.reset(40, 30);
+    const RasterStatistics drawn = rasteriser.draw(scene.plan, target);
+    EXPECT_EQ(drawn.points, 1u);
+    EXPECT_EQ(drawn.reused, 1u) << frame;
+    EXPECT_EQ(drawn.drawn, 0u) << frame;
+  }
+}
+
 TEST(RasterExtremes, AnEyeOnASplatInsideASphereAndPointsBehind)
 {
   for (const ResolvedStyle& style : allStyles(0.5))

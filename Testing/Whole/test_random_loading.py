@@ -1,0 +1,29 @@
+"""Random scenes that load node by node: each point is drawn about once, and the last frame is the
+picture at one go, in both back ends.
+
+Environment: POINTFRONT_LOADING_SCENES the program; the seeds: see random_cases.py;
+docs/developer/random-tests.md says what was found. It needs a display.
+usage: test_random_loading.py [RandomLoading.test_KIND]
+"""
+
+import unittest
+
+from pair_test import PairTest
+from random_loading import KINDS
+
+USUAL = 4  # a scene has dozens of frames, of both back ends
+# (kind, case): the smallest cases that once differed.
+FOUND = ()
+
+
+class RandomLoading(PairTest):
+    def test_scenes_that_once_differed(self):
+        self.check_found(FOUND)
+
+
+for one in KINDS:
+    setattr(RandomLoading, f"test_{one.__name__}", lambda self, kind=one: self.check(kind, USUAL))
+
+
+if __name__ == "__main__":
+    unittest.main()

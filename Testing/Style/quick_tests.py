@@ -37,11 +37,16 @@ def faults(text, tests):
                 yield f"{pattern}: {name} is left out itself"
 
 
-def main():
-    list_file, ctest, build = sys.argv[1:]
+def names_of(ctest, build):
+    """The names of all tests of a build tree."""
     shown = subprocess.run([ctest, "--test-dir", build, "-N"], check=True, capture_output=True,
                            text=True).stdout
-    tests = re.findall(r"Test +#\d+: (\S+)", shown)
+    return re.findall(r"Test +#\d+: (\S+)", shown)
+
+
+def main():
+    list_file, ctest, build = sys.argv[1:]
+    tests = names_of(ctest, build)
     if any(name.endswith(("_NOT_BUILT", "_is_not_built")) for name in tests):
         print("not every test program is built: their tests have no names yet")
         sys.exit(77)  # CTest takes it as skipped

@@ -7,11 +7,13 @@ import json
 import os
 import sys
 
+import numpy
 from paraview import servermanager, simple
 
 simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-from scene import POINTS, SIZE, Scene, require
+import pictures
+from scene import OUTPUT, POINTS, SIZE, Scene, require
 
 classes = json.loads(sys.argv[1])
 names = list(classes)
@@ -78,13 +80,24 @@ require(set(names) == set(named.values()), "named %s" % named)
 wide = simple.OpenDataFile(os.environ["POINTFRONT_WIDE"])
 wide.OverviewPoints = 5000
 shown = scene.show(wide)
+shown.TargetError = 0.01
 scene.color_by(shown, "classification")
+# It lies elsewhere: 67 columns, one of each class, seen from above.
+scene.look_as({"position": [33, 49.5, 100], "focal_point": [33, 49.5, 0], "view_up": [0, 1, 0],
+               "parallel_scale": 50})
 scene.save("classes-wide")
+scene.view.CameraParallelProjection = 0
+scene.look()
 many = dict(zip(table.Annotations[::2], table.Annotations[1::2]))
 require(set(range(1, 68)) | set(map(int, named)) == set(map(int, many)), "named %s" % sorted(many))
 require(list(table.Annotations[::2]) == sorted(many, key=int), "in no order: %s" % many)
 require(len(table.IndexedColors) == 3 * len(many), "colours of %d" % len(many))
 require({code: many[code] for code in named} == named, "names changed: %s" % many)
+picture = pictures.load(os.path.join(OUTPUT, "classes-wide.png")).reshape(-1, 3)
+colours = numpy.round(255 * numpy.array(table.IndexedColors).reshape(-1, 3))
+unseen = [code for code, colour in zip(map(int, table.Annotations[::2]), colours)
+          if 1 <= code <= 67 and numpy.abs(picture - colour).max(axis=1).min() > 1]
+require(not unseen, "classes in other colours: %s" % unseen)
 require("40" not in named, "absent classes in the first legend: %s" % named)
 simple.Hide(wide, scene.view)
 table.InterpretValuesAsCategories = 0

@@ -1,13 +1,12 @@
 """Stores as Python objects: what they hold, points of them as NumPy arrays, and pictures."""
 
 import html
-import json
 import operator
 import os
 
 from . import _arrays, _far, _host, _kernel, _pictures
-from ._errors import PointFrontError
-from ._queries import KERNEL_OPTIONS, Conditions, box_of, class_numbers
+from ._errors import PointFrontError, warn
+from ._queries import KERNEL_OPTIONS, Conditions, class_numbers
 
 
 class Cloud:
@@ -18,13 +17,14 @@ class Cloud:
     bounds      ((x0, y0, z0), (x1, y1, z1)) in the units of the coordinate system, tight
     attributes  names
     classes     {number: name} of object classes with a tree of their own
-    info        what `pointfront info --json` tells, as a dictionary
+    info        what `pointfront info --json` tells, as a dictionary; of a folder as of one cloud
     crs         coordinate reference system as well-known text; None: the cloud names none
     len(cloud)  how many points
 
-    Opening reads no points. A cloud is a context manager: leaving it lets go of the file. Pickled,
-    it is its absolute path, and is opened again where it is unpickled; of an address, what is not
-    secret. A notebook shows a table.
+    Opening reads no points. What a cloud lacks (a folder of LAZ files gives a first look, one point
+    of each chunk) is a PointFrontWarning. A cloud is a context manager: leaving it lets go of the
+    file. Pickled, it is its absolute path, and is opened again where it is unpickled; of an
+    address, what is not secret. A notebook shows a table.
     """
 
     def __init__(self, path):
@@ -37,6 +37,8 @@ class Cloud:
                       else self._store.description["path"])
         if _far.is_address(given):
             _far.remember(given, self._path)
+        self._warnings = [f"{self._path}: {text}" for text in self._store.description["warnings"]]
+        warn(self._warnings)
 
     def close(self):
         """Let go of the file. Arrays and pictures stay."""
@@ -76,7 +78,7 @@ class Cloud:
     @property
     def info(self):
         self._opened()
-        return json.loads(_pictures.run_tool(["info", "--json", self._path]))
+        return _pictures.described(self._path)
 
     @property
     def crs(self):
@@ -195,14 +197,13 @@ class Cloud:
         options    others of `pointfront export` in snake case: color_depth=16, polygon="a.geojson"
 
         Returns how many points were written. What was wrong and survived is a PointFrontWarning.
-        Raises PointFrontError; KeyboardInterrupt, with nothing left behind.
+        Raises PointFrontError, and ValueError and TypeError as points() does; KeyboardInterrupt,
+        with nothing left behind.
         """
         self._opened()
-        chosen = {"box": None if box is None else box_of(box), "crs": crs, "where": where,
-                  "sphere": None if sphere is None else [*map(float, sphere[0]), float(sphere[1])],
-                  "classes": class_numbers(classes) or None, "spacing": spacing, "force": overwrite,
-                  **options}
-        return _pictures.export(self._path, os.fspath(path), chosen)
+        conditions = Conditions(self, box, sphere, None, classes, where, spacing, None)
+        chosen = {**conditions.options(), "crs": crs, "force": overwrite, **options}
+        return _pictures.export(self._path, os.fspath(path), chosen, self._warnings)
 
     def to_pyvista(self, **query):
         """Points of a region as pyvista.PolyData, of whichever VTK PyVista runs on; `query` as for
@@ -254,13 +255,14 @@ class Cloud:
         background  (red, green, blue), 0 to 255
         options     others of `pointfront render` in snake case: edl=True, point_size=3 ...
 
-        Returns a Picture: `.pixels` are height by width by 3, uint8. Raises PointFrontError.
+        Returns a Picture: `.pixels` are height by width by 3, uint8. A picture that is coarser than
+        `error` asks is a PointFrontWarning. Raises PointFrontError.
         """
         self._opened()
         options.update(color_by=color_by, view=view, camera=camera, technique=technique,
                        style=style, classes=class_numbers(classes) or None, where=where,
                        error=error, background=background)
-        return _pictures.draw(self._path, path, size, options)
+        return _pictures.draw(self._path, path, size, options, self._warnings)
 
     def show(self, *, size=(1280, 720), title=None):
         """Show the cloud in a window until the user closes it; in a notebook, as a view in the

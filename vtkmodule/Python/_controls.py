@@ -1,11 +1,10 @@
 """Controls over the picture of a page: choices, a legend, the classes, a point, a measure."""
 
-import json
 import math
 
 from . import _kernel
 from ._orbit import projected
-from ._pictures import run_tool
+from ._pictures import described
 
 TECHNIQUES = ("splats", "points", "spheres", "ewa")
 POINT_SIZES = ("1", "2", "3", "4", "6", "8", "12")
@@ -71,7 +70,7 @@ OVERLAY = f"""
 
 def colours_of(path):
     """Returns the attributes that the first store can be coloured by."""
-    names = [a["name"] for a in json.loads(run_tool(["info", "--json", path]))["attributes"]]
+    names = [attribute["name"] for attribute in described(path)["attributes"]]
     computed = ["elevation"] + (["horizontality"] if "normal" in names else [])
     return names + [name for name in computed if name not in names]
 

@@ -1,6 +1,7 @@
 """Pictures drawn by the tool: in software, without a display and without OpenGL."""
 
 import json
+import os
 import pathlib
 import re
 import signal
@@ -95,12 +96,26 @@ def run_tool(arguments, heard=None):
     return output
 
 
-def export(path, output, options):
+def described(path):
+    """Returns the tool's description of a cloud, a dictionary; a folder or a list is one cloud."""
+    told = json.loads(run_tool(["info", "--json", path]))
+    if "files" in told or os.path.isdir(path):
+        told = json.loads(run_tool(["info", "--json", "--together", path]))
+    return told
+
+
+def _warn_of(said, known):
+    """Raises what the tool warned of, unless it is among the `known`."""
+    texts = [line.split("warning: ", 1)[-1] for line in said[0].splitlines() if line]
+    warn(text for text in texts if text not in known)
+
+
+def export(path, output, options, known=()):
     """Writes points of a stored cloud to a file; how many. See Cloud.export."""
     said = []
     printed = run_tool(["export", path, "-o", output, "--progress", "none", *_flags(options)],
                        said.append)
-    warn(line.split("warning: ", 1)[-1] for line in said[0].splitlines() if line)
+    _warn_of(said, known)
     return int(re.search(r": ([0-9]+) points", printed.decode()).group(1))
 
 
@@ -134,14 +149,16 @@ def _word(value):
     return repr(float(value)) if isinstance(value, (float, numpy.floating)) else str(value)
 
 
-def draw(path, output, size, options):
+def draw(path, output, size, options, known=()):
     """A Picture of a stored cloud; also written to `output` unless that is None."""
+    said = []
     width, height = size
     arguments = ["render", path, "--size", f"{int(width)}x{int(height)}"]
     with tempfile.TemporaryDirectory(prefix="pointfront-") as folder:
         file = pathlib.Path(folder) / "picture.png"
-        run_tool([*arguments, *_flags(options, folder), "-o", file])
+        run_tool([*arguments, *_flags(options, folder), "-o", file], said.append)
         picture = Picture(file.read_bytes())
     if output is not None:
         picture.save(output)
+    _warn_of(said, known)
     return picture

@@ -1,7 +1,9 @@
 """Which points of a cloud are meant: arguments checked, and handed to the kernel."""
 
 import ctypes
+import math
 import operator
+import sys
 
 from . import _kernel
 from ._errors import PointFrontError, did_you_mean
@@ -21,9 +23,12 @@ def box_of(box):
                for number in (corner if hasattr(corner, "__len__") else (corner,))]
     if len(numbers) != 6:
         raise ValueError(f"a box has six numbers, ((x0, y0, z0), (x1, y1, z1)), not {len(numbers)}")
-    if any(low > high for low, high in zip(numbers, numbers[3:])):
-        raise ValueError(f"a box begins with its lowest corner, ((x0, y0, z0), (x1, y1, z1)): "
-                         f"{numbers} has a lower one behind it")
+    for axis, low, high in zip("xyz", numbers, numbers[3:]):
+        if math.isnan(low) or math.isnan(high):
+            raise ValueError(f"the box's end along {axis} is no number")
+        if low > high:
+            raise ValueError(f"the box goes down along {axis}, from {low} to {high}: it begins "
+                             f"with its lowest corner, ((x0, y0, z0), (x1, y1, z1))")
     return numbers
 
 
@@ -37,6 +42,9 @@ def class_numbers(classes):
         numbers = [classes]
     if not numbers:
         raise ValueError("classes names no class: no point can be meant; None takes all")
+    for number in numbers:
+        if isinstance(number, (bool, str)):
+            raise TypeError(f"a class has a number, and {number!r} is none")
     numbers = [operator.index(number) for number in numbers]
     for number in numbers:
         if not 0 <= number <= 255:
@@ -45,15 +53,37 @@ def class_numbers(classes):
 
 
 def _sphere_of(sphere):
-    centre, radius = sphere
-    numbers = [*map(float, centre), float(radius)]
-    if len(numbers) != 4:
-        raise ValueError(f"a sphere has three coordinates and a radius, not {len(numbers)} numbers")
-    return numbers
+    """Four numbers, the radius last."""
+    try:
+        (x, y, z), radius = sphere
+    except (TypeError, ValueError):
+        raise ValueError(f"a sphere is its centre and its radius, ((x, y, z), radius), not "
+                         f"{sphere!r}") from None
+    return [float(x), float(y), float(z), float(radius)]
 
 
-def _text(text):
+def _spacing_of(spacing):
+    """None: all points."""
+    if spacing is None:
+        return None
+    if not float(spacing) >= 0.0:
+        raise ValueError(f"a spacing is 0 or more, not {spacing}")
+    return float(spacing) or None
+
+
+def _text_of(name, text):
+    if text is not None and not isinstance(text, str):
+        raise TypeError(f"{name} is a text, not of type {type(text).__name__}")
+    return text
+
+
+def _encoded(text):
     return None if text is None else text.encode(errors="surrogateescape")
+
+
+def _finite(number):
+    """The largest number in place of an infinite one."""
+    return max(-sys.float_info.max, min(sys.float_info.max, number))
 
 
 class Conditions:
@@ -68,10 +98,10 @@ class Conditions:
         known = cloud.attributes
         self.box = None if box is None else box_of(box)
         self.sphere = None if sphere is None else _sphere_of(sphere)
-        self.area = area
+        self.area = _text_of("area", area)
         self.classes = class_numbers(classes)
-        self.where = where
-        self.spacing = spacing
+        self.where = _text_of("where", where)
+        self.spacing = _spacing_of(spacing)
         self.attributes = attributes
         if attributes is not None:
             self.attributes = [attributes] if isinstance(attributes, str) else list(attributes)
@@ -88,6 +118,12 @@ class Conditions:
         made.classes, made.spacing, made.attributes = [], spacing, attributes
         return made
 
+    def options(self):
+        """Those of `pointfront export`, which takes finite numbers only."""
+        return {"box": None if self.box is None else [_finite(end) for end in self.box],
+                "sphere": self.sphere, "classes": self.classes or None, "where": self.where,
+                "spacing": None if self.spacing is None else _finite(self.spacing)}
+
     def arrays(self, store, progress=None, *, line_distance=0.0, maximum_number_of_points=_MOST,
                memory_limit=0, colors_as_stored=True, piece=0, pieces=1):
         """NumPy arrays by name, of a share of the points."""
@@ -96,11 +132,11 @@ class Conditions:
             query.box = _SixNumbers(*self.box)
         if self.sphere is not None:
             query.sphere = _FourNumbers(*self.sphere)
-        query.area = _text(self.area)
+        query.area = _encoded(self.area)
         query.line_distance = line_distance
         query.classes = bytes(self.classes)
         query.class_count = len(self.classes)
-        query.where = _text(self.where)
+        query.where = _encoded(self.where)
         query.spacing = self.spacing or 0.0
         names = self.attributes
         if names is None:

@@ -1,6 +1,7 @@
 """`pointfront serve`: a page with a view of stores, drawn here without a display."""
 
 import argparse
+import asyncio
 import os
 import signal
 import sys
@@ -12,6 +13,7 @@ VALUES = {"color-by": "ATTRIBUTE", "technique": "NAME", "style": "FILE.json", "c
           "where": "CONDITION", "error": "PX", "point-size": "PX", "point-budget": "N",
           "memory": "BYTES", "background": "R,G,B", "quality": "NAME", "frame-ms": "MS"}
 FLAGS = ("edl",)
+INTERRUPTED = 130  # an exit status
 
 
 def parser():
@@ -32,6 +34,28 @@ def parser():
     return made
 
 
+def end_by_signals():
+    """From now on Ctrl-C and SIGTERM end the event loop that runs, between two of its callbacks:
+    Python's own interrupt comes anywhere, and what it leaves locked can keep the process for ever.
+    The second one ends the process at once; the tool ends with its input.
+    """
+    loop = asyncio.get_running_loop()
+    told = []
+
+    def end():
+        if told:
+            os._exit(INTERRUPTED)
+        told.append(True)
+        for number in numbers:  # the loop will not run any more
+            signal.signal(number, lambda *_: os._exit(INTERRUPTED))
+        raise KeyboardInterrupt
+
+    numbers = [number for number in (signal.SIGINT, signal.SIGTERM)
+               if signal.getsignal(number) != signal.SIG_IGN]  # as a shell's job in the background
+    for number in numbers:
+        loop.add_signal_handler(number, end)
+
+
 def main(arguments):
     """Serves until it is interrupted; the exit status."""
     chosen = parser().parse_args(arguments)
@@ -39,13 +63,18 @@ def main(arguments):
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     os.environ.setdefault("WSLINK_WS_COMPRESS", "0")  # JPEG does not become smaller
     try:
+        from ._kernel import StoredCloud
         from ._page import CloudPage
 
         given = vars(chosen)
         options = {name: given[name.replace("-", "_")] for name in (*VALUES, *FLAGS)}
         page = CloudPage(chosen.stores, {n: v for n, v in options.items() if v})
+        for path in chosen.stores:
+            for text in StoredCloud(path).description["warnings"]:
+                print(f"pointfront serve: warning: {path}: {text}", file=sys.stderr, flush=True)
 
         def say(**_):
+            end_by_signals()
             where = f"http://{chosen.host}:{page.server.port}/?{page.query}"
             print(f"pointfront serve: {where} (Ctrl-C ends it)", flush=True)
             if chosen.open:
@@ -56,7 +85,7 @@ def main(arguments):
         page.server.controller.on_server_ready.add(say)
         page.serve(port=chosen.port, host=chosen.host)
     except KeyboardInterrupt:
-        return 130
+        return INTERRUPTED
     except (PointFrontError, OSError) as problem:
         print(f"pointfront serve: {problem}", file=sys.stderr)
         return 1

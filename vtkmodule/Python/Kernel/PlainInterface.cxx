@@ -126,7 +126,8 @@ Json describe(const std::string& path, const pointfront::StoreDescription& store
     single ? void() : classes.push_back({ layer.objectClass, layer.name });
   }
   return { { "path", path }, { "points", store.pointCount }, { "attributes", attributes },
-    { "computed", computed }, { "classes", classes }, { "deep", hasDeepColours(store) } };
+    { "computed", computed }, { "classes", classes }, { "deep", hasDeepColours(store) },
+    { "warnings", store.warnings } };
 }
 
 Result<void> addRegions(const PointFrontQuery& asked, pointfront::PointQuery& query)

@@ -17,20 +17,13 @@ import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "Testing/Support"))
-for name in [name for name in os.environ if name.lower().endswith("_proxy")]:
-    del os.environ[name]
-os.environ["POINTFRONT_CACHE"] = "off"
-os.environ["POINTFRONT_REMOTE_TIMEOUT"] = "3"
-
 # pylint: disable=wrong-import-position
+from far_setting import HERE, SECRET
 import numpy
 import pointfront
 from far_server import FarServer
 from far_weather import TOKEN
 from pointfront._stream import FrameStream
-
-HERE = "127.0.0.1"
-SECRET = "sig=VERY-SECRET"
 
 
 class Addresses(unittest.TestCase):

@@ -8,6 +8,8 @@ import asyncio
 import io
 import os
 import pathlib
+import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -207,6 +209,46 @@ class Page(InBrowser):
         self.addCleanup(stranger.close)
         self.assertEqual(stranger.goto(page.url).status, 403)
         server.end()
+
+    def test_a_folder_of_stores_is_served(self):
+        with tempfile.TemporaryDirectory() as folder:
+            for name in ("a.pfront", "b.pfront"):
+                shutil.copyfile(self.store, pathlib.Path(folder) / name)
+            server = Server(folder, "--port", "0")
+            self.addCleanup(server.process.kill)
+            page = self.open(server.url)
+            grey = self.settle(page, lambda: page.select_option("select >> nth=0", "intensity"))
+            self.assertGreater(grey.std(), 20)
+            self.assertEqual(server.end(), 130)
+            self.assertEqual(server.said, "")
+
+    def test_a_first_look_is_told(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "a.laz").symlink_to(CLOUD)
+            server = Server(folder, "--port", "0")
+            self.addCleanup(server.process.kill)
+            self.assertEqual(server.end(), 130)
+            self.assertRegex(server.said, "warning: .*first look: 4 of 174151")
+
+    def test_it_ends_when_it_is_told_twice(self):
+        """As by `timeout`, which tells the process and its group; or by a user in a hurry."""
+        random = numpy.random.default_rng(3)
+        for _ in range(10):
+            server = Server(self.store, "--port", "0")
+            self.addCleanup(server.process.kill)
+            tools = server.tools()
+            time.sleep(random.uniform(0, 1))
+            for number in random.choice([signal.SIGTERM, signal.SIGINT], 2):
+                server.process.send_signal(number)
+                time.sleep(random.uniform(0, 0.001))
+            ended = server.process.wait(10)  # the second may come when Python is as good as gone
+            self.assertIn(ended, (130, -signal.SIGTERM, -signal.SIGINT))
+            end = time.monotonic() + 10
+            while any(pathlib.Path(f"/proc/{tool}").exists() for tool in tools):
+                self.assertLess(time.monotonic(), end, "the tool is still there")
+                time.sleep(0.01)
+            server.process.stdout.close()
+            server.process.stderr.close()
 
     def test_what_cannot_be_served_is_said(self):
         for arguments, status, says in ((["none.pfront"], 1, "none.pfront"),

@@ -129,6 +129,46 @@ class Writing(unittest.TestCase):
             self.assertEqual(self.cloud.export(target, where="intensity > 65000", overwrite=True),
                              0)
 
+    def test_what_cannot_be_meant_is_refused(self):
+        """By points(), chunks() and export() in one way; nothing is written."""
+        target = self.folder / "refused.las"
+        ends = numpy.array(self.cloud.bounds)
+        cases = [({"sphere": (1, 2, 3, 4)}, ValueError, "sphere.*radius"),
+                 ({"sphere": ((1, 2), 3)}, ValueError, "sphere.*radius"),
+                 ({"where": 3}, TypeError, "where.*int"),
+                 ({"spacing": -1}, ValueError, "spacing.*-1"),
+                 ({"spacing": numpy.nan}, ValueError, "spacing.*nan"),
+                 ({"classes": []}, ValueError, "no class"),
+                 ({"classes": [True]}, TypeError, "True"), ({"classes": "2"}, TypeError, "'2'")]
+        for axis, name in enumerate("xyz"):
+            swapped, unknown = ends.copy(), ends.copy()
+            swapped[:, axis] = ends[::-1, axis]
+            unknown[axis % 2, axis] = numpy.nan
+            cases += [({"box": swapped}, ValueError, f"box.*along {name}.*lowest corner"),
+                      ({"box": unknown}, ValueError, f"box.*along {name} is no number")]
+        for query, problem, says in cases:
+            for ask in (self.cloud.points, self.cloud.chunks,
+                        lambda **query: self.cloud.export(target, **query)):
+                with self.subTest(query=query), self.assertRaisesRegex(problem, says):
+                    ask(**query)
+            self.assertFalse(target.exists())
+        for sphere in ((ends[0], -1), (ends[0], numpy.nan), ((numpy.inf, 0, 0), 1)):
+            for ask in (self.cloud.points, lambda **query: self.cloud.export(target, **query)):
+                with self.subTest(sphere=sphere), self.assertRaisesRegex(
+                        pointfront.PointFrontError, "sphere.*radius"):
+                    ask(sphere=sphere)
+            self.assertFalse(target.exists())
+
+    def test_what_has_no_end_is_the_same_in_files(self):
+        target = self.folder / "endless.las"
+        low, high = self.cloud.bounds
+        middle = (numpy.array(low) + high) / 2
+        for query in ({"box": ((-numpy.inf, *low[1:]), (*middle[:2], numpy.inf))},
+                      {"spacing": numpy.inf}, {"spacing": 0}, {"spacing": numpy.float32(20)}):
+            count = len(self.cloud.points(attributes=[], **query)["id"])
+            self.assertGreater(count, 0)
+            self.assertEqual(self.cloud.export(target, overwrite=True, **query), count, query)
+
     def test_warnings_are_pythons(self):
         with warnings.catch_warnings(record=True) as caught:
             warnings.simplefilter("always")
@@ -137,6 +177,38 @@ class Writing(unittest.TestCase):
         self.assertTrue(caught)
         self.assertEqual({w.filename for w in caught}, {__file__})
         self.assertTrue(issubclass(caught[0].category, pointfront.PointFrontWarning))
+
+    def test_a_folder_of_stores_is_one_cloud(self):
+        folder = self.folder / "stores"
+        folder.mkdir()
+        for name in ("a.pfront", "b.pfront"):
+            shutil.copyfile(self.store, folder / name)
+        with pointfront.open(folder) as cloud:
+            self.assertEqual(cloud.info["points"], 2 * len(self.cloud))
+            self.assertEqual([a["name"] for a in cloud.info["attributes"]], cloud.attributes)
+            self.assertEqual(cloud.crs, self.cloud.crs)
+            self.assertIn(f"{2 * len(self.cloud):,}", cloud._repr_html_())
+
+    def test_an_opened_cloud_says_what_it_lacks(self):
+        """A folder of LAZ files gives a first look: four points, which are not those of the files.
+        """
+        folder = self.folder / "tiles"
+        folder.mkdir()
+        shutil.copyfile(CLOUD, folder / "a.laz")
+        with self.assertWarnsRegex(pointfront.PointFrontWarning, "tiles: .*4 of 174151") as said:
+            cloud = pointfront.open(folder)
+        self.assertEqual(said.filename, __file__)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")  # it is said once
+            self.assertEqual(len(cloud.points()["id"]), 4)
+            cloud.screenshot(size=(64, 48))
+            with self.assertRaisesRegex(pointfront.PointFrontError, "would lack"):
+                cloud.export(self.folder / "tiles.las")
+
+    def test_a_picture_says_what_it_lacks(self):
+        with self.assertWarnsRegex(pointfront.PointFrontWarning, "coarser.*point-budget") as said:
+            self.cloud.screenshot(size=(64, 48), error=0.1, point_budget=1000)
+        self.assertEqual(said.filename, __file__)
 
     def test_a_folder_of_files_is_an_input(self):
         folder = self.folder / "files"

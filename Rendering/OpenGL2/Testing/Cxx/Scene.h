@@ -9,9 +9,11 @@
 #include "vtkPointFrontReader.h"
 #include "vtkPointFrontStore.h"
 
+#include <gtest/gtest.h>
 #include <vtkActor.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCamera.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkPolyData.h>
@@ -21,8 +23,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkSmartPointer.h>
 #include <vtkUnsignedCharArray.h>
-
-#include <gtest/gtest.h>
+#include <vtkWindowToImageFilter.h>
 
 #include <array>
 #include <cmath>
@@ -126,6 +127,21 @@ inline int differing(const Picture& a, const Picture& b, int tolerance = 0)
   return count;
 }
 
+/// Buffers, textures, vertex arrays and framebuffers of a window; it is current afterwards.
+inline int liveNames(vtkRenderWindow* window)
+{
+  window->MakeCurrent();
+  int count = 0;
+  for (GLuint name = 1; name < 4096; ++name)
+  {
+    count += glIsBuffer(name) == GL_TRUE ? 1 : 0;
+    count += glIsTexture(name) == GL_TRUE ? 1 : 0;
+    count += glIsVertexArray(name) == GL_TRUE ? 1 : 0;
+    count += glIsFramebuffer(name) == GL_TRUE ? 1 : 0;
+  }
+  return count;
+}
+
 /// A store in an offscreen window, seen from above (+z) over the origin of its grid.
 struct Scene
 {
@@ -176,6 +192,23 @@ struct Scene
     window->GetPixelData(0, 0, picture.width - 1, picture.height - 1, 0, pixels);
     picture.rgb.assign(pixels->GetPointer(0), pixels->GetPointer(0) + pixels->GetNumberOfValues());
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    return picture;
+  }
+
+  /// A picture of several windows' size, which VTK makes of tiles.
+  Picture poster(int across, int down)
+  {
+    vtkNew<vtkWindowToImageFilter> filter;
+    filter->SetInput(window);
+    filter->SetScale(across, down);
+    filter->ReadFrontBufferOff();
+    filter->Update();
+    vtkImageData* const image = filter->GetOutput();
+    Picture picture;
+    picture.width = image->GetDimensions()[0];
+    picture.height = image->GetDimensions()[1];
+    const auto* bytes = static_cast<unsigned char*>(image->GetScalarPointer());
+    picture.rgb.assign(bytes, bytes + 3 * std::size_t(picture.width) * picture.height);
     return picture;
   }
 

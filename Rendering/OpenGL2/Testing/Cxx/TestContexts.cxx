@@ -10,20 +10,6 @@ using namespace pointfront::test;
 namespace
 {
 
-/// Buffers, textures and vertex arrays of a window's context; it is current afterwards.
-int liveNames(vtkRenderWindow* window)
-{
-  window->MakeCurrent();
-  int count = 0;
-  for (GLuint name = 1; name < 4096; ++name)
-  {
-    count += glIsBuffer(name) == GL_TRUE ? 1 : 0;
-    count += glIsTexture(name) == GL_TRUE ? 1 : 0;
-    count += glIsVertexArray(name) == GL_TRUE ? 1 : 0;
-  }
-  return count;
-}
-
 /// A cloud in a window of its own, and the names that the window had without it.
 struct Counted : Scene
 {

@@ -1,22 +1,19 @@
 // Lenses, translucent classes and highlights in VTK windows, by both back ends.
 
-#include "Scene.h"
-
+#include "ErrorObserver.h"
 #include "pointfront/Style/StyleSheet.h"
+#include "Scene.h"
 #include "vtkPointFrontLensWidget.h"
 #include "vtkPointFrontStyle.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
-#include <vtkImageData.h>
 #include <vtkPoints.h>
 #include <vtkRenderWindowInteractor.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <map>
 #include <set>
@@ -262,15 +259,11 @@ TEST(Lenses, MoreThanOpenGLHasAreDrawnBySoftwareWithAWarning)
     const int lens = scene.style->AddCircleLens(20.0 + 40.0 * i, 100.0, 10.0);
     scene.style->SetLensStyle(lens, R"({"visible": false})", 5);
   }
-  std::string warning;
-  vtkNew<vtkCallbackCommand> told;
-  told->SetClientData(&warning);
-  told->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
-    { *static_cast<std::string*>(client) += static_cast<const char*>(data); });
+  vtkNew<ErrorObserver> told;
   scene.mapper->AddObserver(vtkCommand::WarningEvent, told);
   const Picture picture = scene.with(vtkPointFrontMapper::OPENGL);
   EXPECT_EQ(picture.at(180, 100), red);
-  EXPECT_NE(warning.find("at most 4 lenses"), std::string::npos);
+  EXPECT_NE(told->GetWarningMessage().find("at most 4 lenses"), std::string::npos);
 }
 
 TEST(Lenses, TheWidgetFollowsTheMouse)
@@ -314,18 +307,13 @@ TEST(Lenses, APosterOfTilesHasTheLensOnce)
     for (const int backend : backends)
     {
       scene.with(backend);
-      vtkNew<vtkWindowToImageFilter> filter;
-      filter->SetInput(scene.window);
-      filter->SetScale(3, 2);
-      filter->ReadFrontBufferOff();
-      filter->Update();
-      vtkImageData* const image = filter->GetOutput();
+      const Picture poster = scene.poster(3, 2);
       int wrong = 0;
       for (int y = 30; y < 370; ++y)
       {
         for (int x = 125; x < 475; ++x) // a wider picture shows the same meadow
         {
-          const bool inside = image->GetScalarComponentAsDouble(x, y, 0, 0) > 100.0;
+          const bool inside = poster.at(x, y)[0] > 100;
           wrong += inside != lens.covers(x / 3, y / 2, 200, 200) ? 1 : 0;
         }
       }

@@ -4,10 +4,6 @@
 
 #include "vtkPointFrontStyle.h"
 
-#include <vtkImageData.h>
-#include <vtkWindowToImageFilter.h>
-
-#include <cstring>
 #include <string>
 
 using namespace pointfront;
@@ -51,17 +47,7 @@ struct Pillars : Scene
   {
     mapper->SetBackend(backend);
     window->SetSize(width / scale, height / scale);
-    vtkNew<vtkWindowToImageFilter> filter;
-    filter->SetInput(window);
-    filter->SetScale(scale);
-    filter->ReadFrontBufferOff();
-    filter->Update();
-    Picture picture;
-    picture.width = filter->GetOutput()->GetDimensions()[0];
-    picture.height = filter->GetOutput()->GetDimensions()[1];
-    picture.rgb.resize(3 * static_cast<std::size_t>(picture.width * picture.height));
-    std::memcpy(picture.rgb.data(), filter->GetOutput()->GetScalarPointer(), picture.rgb.size());
-    return picture;
+    return Scene::poster(scale, scale);
   }
 };
 

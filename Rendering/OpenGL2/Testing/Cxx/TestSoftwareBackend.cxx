@@ -6,7 +6,6 @@
 #include <vtkEDLShading.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
-#include <vtkImageData.h>
 #include <vtkInformation.h>
 #include <vtkLookupTable.h>
 #include <vtkOpenGLFXAAPass.h>
@@ -16,7 +15,6 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 #include <vtkSSAOPass.h>
-#include <vtkWindowToImageFilter.h>
 
 #include <array>
 #include <set>
@@ -184,18 +182,7 @@ TEST(SoftwareBackend, APosterOfTilesIsThatOfOpenGL)
   const auto poster = [&](int backend)
   {
     scene.with(backend);
-    vtkNew<vtkWindowToImageFilter> filter;
-    filter->SetInput(scene.window);
-    filter->SetScale(3, 2);
-    filter->ReadFrontBufferOff();
-    filter->Update();
-    vtkImageData* image = filter->GetOutput();
-    Picture picture;
-    picture.width = image->GetDimensions()[0];
-    picture.height = image->GetDimensions()[1];
-    const auto* bytes = static_cast<unsigned char*>(image->GetScalarPointer());
-    picture.rgb.assign(bytes, bytes + 3 * std::size_t(picture.width) * picture.height);
-    return picture;
+    return scene.poster(3, 2);
   };
   const Picture gl = poster(vtkPointFrontMapper::OPENGL);
   const Picture software = poster(vtkPointFrontMapper::SOFTWARE);

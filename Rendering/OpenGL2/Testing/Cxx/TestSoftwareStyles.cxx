@@ -172,26 +172,16 @@ TEST(SoftwareBackend, KeepsToTheTimeOfAFrame)
 TEST(SoftwareBackend, LeavesNoNamesBehind)
 {
   Sheet scene;
-  const auto names = [&]
-  {
-    scene.window->MakeCurrent();
-    int live = 0;
-    for (GLuint name = 1; name < 4096; ++name)
-    {
-      live += glIsTexture(name) == GL_TRUE || glIsVertexArray(name) == GL_TRUE ? 1 : 0;
-    }
-    return live;
-  };
   scene.actor->VisibilityOff();
   scene.draw();
-  const int before = names();
+  const int before = liveNames(scene.window);
   scene.actor->VisibilityOn();
   const Picture picture = scene.with(vtkPointFrontMapper::SOFTWARE);
-  EXPECT_GT(names(), before);
+  EXPECT_GT(liveNames(scene.window), before);
   scene.actor->ReleaseGraphicsResources(scene.window);
-  EXPECT_EQ(names(), before);
+  EXPECT_EQ(liveNames(scene.window), before);
   EXPECT_EQ(differing(picture, scene.draw()), 0);
   scene.actor->SetMapper(nullptr);
   scene.mapper = nullptr;
-  EXPECT_EQ(names(), before);
+  EXPECT_EQ(liveNames(scene.window), before);
 }

@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <string>
 #include <vector>
@@ -103,6 +104,28 @@ int primitivesOf(Scene& scene)
   return static_cast<int>(count);
 }
 
+/// A view that draws its points as they come.
+struct Loading
+{
+  double drawn = 0.0; ///< points and triangles, of all frames together
+  int gained = 0; ///< frames that had more points than the one before
+  vtkTypeInt64 points = 0; ///< those of the last frame
+
+  /// Draws until `loads` says that no more comes, or the time is over.
+  Loading(Scene& scene, const std::function<vtkTypeInt64()>& shown,
+    const std::function<bool()>& loads, std::chrono::seconds most)
+  {
+    scene.window->Start(); // there is a context before the first frame
+    const auto begin = std::chrono::steady_clock::now();
+    do
+    {
+      drawn += primitivesOf(scene);
+      gained += shown() > points;
+      points = shown();
+    } while (loads() && std::chrono::steady_clock::now() - begin < most);
+  }
+};
+
 TEST(Techniques, AtRestNothingIsDrawnTwice)
 {
   Splats scene(surfaceStore("rest", sphereAt));
@@ -151,21 +174,14 @@ TEST(Techniques, AViewThatLoadsDrawsNothingTwice)
     scene.mapper->CompleteOff();
     scene.mapper->SetGrowthTime(0.0);
     scene.mapper->SetUploadLimit(1 << 16);
-    scene.window->Start(); // there is a context before the first frame
-    double drawn = 0.0;
-    int gained = 0;
-    vtkTypeInt64 before = 0;
-    const auto begin = std::chrono::steady_clock::now();
-    do
-    {
-      drawn += primitivesOf(scene);
-      gained += scene.mapper->GetLastPointsDrawn() > before;
-      before = scene.mapper->GetLastPointsDrawn();
-    } while ((scene.mapper->NeedsRender() || scene.mapper->GetLastRequests() > 0) &&
-      std::chrono::steady_clock::now() - begin < std::chrono::seconds(20));
+    const auto loads = [&]
+    { return scene.mapper->NeedsRender() || scene.mapper->GetLastRequests() > 0; };
+    const Loading view(
+      scene, [&] { return scene.mapper->GetLastPointsDrawn(); }, loads, std::chrono::seconds(20));
     EXPECT_TRUE(scene.mapper->GetLastComplete()) << json;
-    EXPECT_GE(gained, 3) << json;
-    EXPECT_LE(drawn, most * static_cast<double>(before)) << json << ", " << gained << " frames";
+    EXPECT_GE(view.gained, 3) << json;
+    EXPECT_LE(view.drawn, most * static_cast<double>(view.points))
+      << json << ", " << view.gained << " frames";
     const Picture last = scene.read();
     Splats whole(store);
     ASSERT_TRUE(whole.style->LoadJSON(json));
@@ -242,28 +258,20 @@ TEST(Techniques, SeveralCloudsThatLoadDrawNothingTwice)
       each->CompleteOff();
       each->SetUploadLimit(1 << 16);
     }
-    scene.window->Start(); // there is a context before the first frame
-    double drawn = 0.0;
-    int gained = 0;
-    vtkTypeInt64 before = 0;
-    const auto begin = std::chrono::steady_clock::now();
-    do
-    {
-      drawn += primitivesOf(scene);
-      gained += scene.points() > before;
-      before = scene.points();
-    } while (
-      scene.needsRender() && std::chrono::steady_clock::now() - begin < std::chrono::seconds(60));
+    const Loading view(
+      scene, [&] { return scene.points(); }, [&] { return scene.needsRender(); },
+      std::chrono::seconds(60));
     for (vtkPointFrontMapper* each : scene.mappers)
     {
       EXPECT_TRUE(each->GetLastComplete()) << json;
     }
-    EXPECT_GE(gained, 3) << json;
-    EXPECT_LE(drawn, 1.1 * static_cast<double>(before)) << json << ", " << gained << " frames";
+    EXPECT_GE(view.gained, 3) << json;
+    EXPECT_LE(view.drawn, 1.1 * static_cast<double>(view.points))
+      << json << ", " << view.gained << " frames";
     const Picture last = scene.read();
     SeveralSplats whole(stores, json);
     EXPECT_LE(differing(whole.draw(), last, 2), 60) << json; // equally near: who came first
-    EXPECT_EQ(whole.points(), before) << json;
+    EXPECT_EQ(whole.points(), view.points) << json;
   }
 }
 
@@ -293,31 +301,18 @@ TEST(Techniques, LeaveNoNamesBehind)
 {
   Splats scene(surfaceStore("names", planeAt));
   ASSERT_TRUE(scene.style->LoadJSON(techniques.at("lit ewa")));
-  const auto names = [&]
-  {
-    scene.window->MakeCurrent();
-    int live = 0;
-    for (GLuint name = 1; name < 4096; ++name)
-    {
-      live += glIsTexture(name) == GL_TRUE || glIsVertexArray(name) == GL_TRUE ||
-          glIsFramebuffer(name) == GL_TRUE || glIsBuffer(name) == GL_TRUE
-        ? 1
-        : 0;
-    }
-    return live;
-  };
   scene.actor->VisibilityOff();
   scene.draw();
-  const int before = names();
+  const int before = liveNames(scene.window);
   scene.actor->VisibilityOn();
   const Picture picture = scene.with(vtkPointFrontMapper::OPENGL);
-  EXPECT_GT(names(), before + 8);
+  EXPECT_GT(liveNames(scene.window), before + 8);
   scene.actor->ReleaseGraphicsResources(scene.window);
-  EXPECT_EQ(names(), before);
+  EXPECT_EQ(liveNames(scene.window), before);
   EXPECT_EQ(differing(picture, scene.draw()), 0);
   scene.actor->SetMapper(nullptr);
   scene.mapper = nullptr;
-  EXPECT_EQ(names(), before);
+  EXPECT_EQ(liveNames(scene.window), before);
 }
 
 } // namespace

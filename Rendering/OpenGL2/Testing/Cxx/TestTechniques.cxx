@@ -1,9 +1,9 @@
 // Splats on OpenGL are those of the software back end: each technique, on each made-up surface, in
 // perspective and parallel views, beside other actors and under clipping planes.
 
+#include "ErrorObserver.h"
 #include "Splats.h"
 
-#include <vtkCallbackCommand.h>
 #include <vtkCellArray.h>
 #include <vtkCommand.h>
 #include <vtkPlane.h>
@@ -154,11 +154,7 @@ TEST(Techniques, AnActorsOwnShaderCodeIsForPlainPointsAndThatIsTold)
   Splats scene(surfaceStore("own_shader", planeAt));
   scene.style->LoadJSON(R"({"default": {"technique": "splats", "where": "reach > 0.02"}})");
   const Picture before = scene.with(vtkPointFrontMapper::OPENGL);
-  std::string warning;
-  vtkNew<vtkCallbackCommand> told;
-  told->SetClientData(&warning);
-  told->SetCallback([](vtkObject*, unsigned long, void* client, void* data)
-    { *static_cast<std::string*>(client) += static_cast<const char*>(data); });
+  vtkNew<ErrorObserver> told;
   scene.mapper->AddObserver(vtkCommand::WarningEvent, told);
   scene.actor->GetShaderProperty()->AddFragmentShaderReplacement(
     "//VTK::Light::Impl", true, "gl_FragData[0] = vec4(1.0, 0.0, 1.0, 1.0);\n", false);
@@ -166,7 +162,7 @@ TEST(Techniques, AnActorsOwnShaderCodeIsForPlainPointsAndThatIsTold)
   {
     EXPECT_LE(differing(before, scene.with(backend), 2), 300) << backend;
   }
-  EXPECT_NE(warning.find("own shader code is not used"), std::string::npos);
+  EXPECT_NE(told->GetWarningMessage().find("own shader code is not used"), std::string::npos);
 }
 
 TEST(Techniques, CloudsOfAWindowShareItsTarget)

@@ -3,27 +3,21 @@
 usage: TestFar.py STORE SUPPORT_FOLDER
 """
 import contextlib
-import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 import time
 
-for name in [n for n in os.environ if n.lower().endswith("_proxy")]:
-    del os.environ[name]
-os.environ["POINTFRONT_CACHE"] = "off"
-os.environ["POINTFRONT_REMOTE_TIMEOUT"] = "3"
+sys.path.insert(0, sys.argv[2])
 
 # pylint: disable=wrong-import-position
+from far_setting import HERE, SECRET
 import numpy
 import pointfront
-from vtkmodules import vtkRenderingCore
 from vtkmodules.util.numpy_support import vtk_to_numpy
 
-HERE = "127.0.0.1"
-SECRET = "sig=VERY-SECRET"
-
+from shown import Shown
 
 @contextlib.contextmanager
 def served(folder):
@@ -62,25 +56,11 @@ def points(reader):
 
 
 def drawn(reader):
-    mapper = pointfront.vtkPointFrontMapper()
-    mapper.SetInputConnection(reader.GetOutputPort())
-    mapper.CompleteOn()
-    actor = vtkRenderingCore.vtkActor()
-    actor.SetMapper(mapper)
-    renderer = vtkRenderingCore.vtkRenderer()
-    renderer.AddActor(actor)
-    window = vtkRenderingCore.vtkRenderWindow()
-    window.SetOffScreenRendering(1)
-    window.SetMultiSamples(0)
-    window.SetSize(400, 300)
-    window.AddRenderer(renderer)
-    renderer.ResetCamera()
-    window.Render()
-    grab = vtkRenderingCore.vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    grab.Update()
-    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).astype(int)
+    shown = Shown(reader)
+    shown.mapper.CompleteOn()
+    shown.renderer.ResetCamera()
+    shown.window.Render()
+    return shown.pixels()
 
 
 store = pathlib.Path(sys.argv[1])

@@ -7,19 +7,13 @@ import sys
 import pointfront
 from vtkmodules import vtkInteractionStyle, vtkRenderingCore, vtkRenderingUI  # X11's interactor
 
+from shown import Shown
 reader = pointfront.vtkPointFrontReader()
 reader.SetFileName(sys.argv[1])
-mapper = pointfront.vtkPointFrontMapper()
-mapper.SetInputConnection(reader.GetOutputPort())
+shown = Shown(reader, offscreen=False)
+mapper, window = shown.mapper, shown.window
 mapper.SetScalarModeToUsePointFieldData()
 mapper.SetUploadLimit(1 << 16)  # bytes a frame in motion: less than the colours take
-actor = vtkRenderingCore.vtkActor()
-actor.SetMapper(mapper)
-renderer = vtkRenderingCore.vtkRenderer()
-renderer.AddActor(actor)
-window = vtkRenderingCore.vtkRenderWindow()
-window.SetSize(400, 300)
-window.AddRenderer(renderer)
 interactor = vtkRenderingCore.vtkRenderWindowInteractor()
 interactor.SetRenderWindow(window)
 

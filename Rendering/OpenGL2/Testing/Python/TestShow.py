@@ -6,18 +6,9 @@ import sys
 import time
 
 import pointfront
-from vtkmodules import vtkCommonCore, vtkRenderingCore
-from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules import vtkCommonCore
 
-
-def picture(window):
-    grab = vtkRenderingCore.vtkWindowToImageFilter()
-    grab.SetInput(window)
-    grab.ReadFrontBufferOff()
-    grab.ShouldRerenderOff()
-    grab.Update()
-    return vtk_to_numpy(grab.GetOutput().GetPointData().GetScalars()).astype(int)
-
+from shown import Shown
 
 def check(condition, message):
     if not condition:
@@ -26,20 +17,10 @@ def check(condition, message):
 
 reader = pointfront.vtkPointFrontReader()
 reader.SetFileName(sys.argv[1])
-mapper = pointfront.vtkPointFrontMapper()
-mapper.SetInputConnection(reader.GetOutputPort())
+shown = Shown(reader)
+mapper, window = shown.mapper, shown.window
 check(mapper.IsA("vtkOpenGLPointFrontMapper"), "the factory gave " + mapper.GetClassName())
-actor = vtkRenderingCore.vtkActor()
-actor.SetMapper(mapper)
-renderer = vtkRenderingCore.vtkRenderer()
-renderer.AddActor(actor)
-window = vtkRenderingCore.vtkRenderWindow()
-window.SetOffScreenRendering(1)
-window.SetMultiSamples(0)
-window.SetSize(400, 300)
-window.AddRenderer(renderer)
-renderer.ResetCamera()
-
+shown.renderer.ResetCamera()
 window.Render()
 first = mapper.GetLastPointsDrawn()
 check(first > 0, "the first frame is empty")
@@ -50,10 +31,10 @@ while not mapper.GetLastComplete() and time.time() < deadline:
     else:
         time.sleep(0.001)
 check(mapper.GetLastComplete(), "did not settle in a minute")
-refined = picture(window)
+refined = shown.pixels()
 mapper.CompleteOn()
 window.Render()
-check((picture(window) == refined).all(), "a complete render differs from the refined picture")
+check((shown.pixels() == refined).all(), "a complete render differs from the refined picture")
 check((refined.max(axis=1) > 0).mean() > 0.2, "most of the picture is empty")
 
 store = mapper.GetStore()
@@ -68,4 +49,4 @@ mapper.SelectColorArray("elevation")
 mapper.SetLookupTable(table)
 mapper.UseLookupTableScalarRangeOn()
 window.Render()
-check((picture(window) != refined).any(axis=1).mean() > 0.2, "elevation changed no colour")
+check((shown.pixels() != refined).any(axis=1).mean() > 0.2, "elevation changed no colour")

@@ -6,42 +6,25 @@ them, and the first line of "Store". Saves far-panel.png.
 """
 
 import ctypes
-import json
 import os
 import time
-import traceback
 
 from paraview import simple
 
-found = {"frame": [], "store": "", "failure": None}
+from session import OUTPUT, Session
+
+session = Session("far_panel", frame=[], store="")
+found = session.found
 LONGEST = 60  # seconds
 
 
-def end():
-    with open(os.path.join(os.environ["POINTFRONT_OUTPUT"], "far_panel.json"), "w") as file:
-        json.dump(found, file, indent=1)
-    os._exit(1 if found["failure"] else 0)
-
-
-def guarded(action):
-    def run(*_):
-        try:
-            action()
-        except BaseException:
-            found["failure"] = traceback.format_exc()
-            end()
-    return run
-
-
-@guarded
+@session.guarded
 def start():
-    simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
     probe = ctypes.CDLL(os.environ["POINTFRONT_PANEL_PROBE"])
     for name in ("Act", "Press", "Type"):
         getattr(probe, "pointfront" + name).restype = ctypes.c_bool
-    simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
+    session.load()
     view = simple.GetActiveViewOrCreate("RenderView")
-    interactor = view.SMProxy.GetInteractor()
     begun = time.monotonic()
 
     def chooses():
@@ -65,22 +48,18 @@ def start():
         found["store"] = source.SMProxy.GetProperty("StoreFacts").GetElement(0).split("\n")[0]
         if not found["frame"][0] or found["frame"][1].startswith("0 "):
             return False
-        simple.SaveScreenshot(
-            os.path.join(os.environ["POINTFRONT_OUTPUT"], "far-panel.png"), view)
-        return end()
+        simple.SaveScreenshot(os.path.join(OUTPUT, "far-panel.png"), view)
+        return session.end()
 
     steps = [chooses, types, applies, looks]
 
-    @guarded
-    def tick():
+    def step():
         if steps[0]():
             steps.pop(0)
         if time.monotonic() - begun > LONGEST:
             raise AssertionError("stopped at %s: %s" % (steps[0].__name__, found))
-        interactor.CreateOneShotTimer(200)
 
-    interactor.AddObserver("TimerEvent", tick)
-    interactor.CreateOneShotTimer(2000)
+    session.every_tick(view, step)
     view.SMProxy.StillRender()
 
 

@@ -3,15 +3,21 @@
 import importlib
 import pathlib
 import shutil
+import sys
 import tempfile
 import unittest
 
+ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.insert(0, str(ROOT / "Testing/Support"))
+# pylint: disable=wrong-import-position
+from far_setting import HERE
 import numpy
 import pointfront
 import pyvista
+from far_server import FarServer
 
 core = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkRenderingCore")
-CLOUD = pathlib.Path(__file__).resolve().parents[3] / "Testing/Data/autzen_stadium.laz"
+CLOUD = ROOT / "Testing/Data/autzen_stadium.laz"
 SIZE = (320, 240)
 
 
@@ -150,6 +156,17 @@ class PyVista(unittest.TestCase):
         numpy.testing.assert_array_equal(mesh["intensity"], arrays["intensity"])
         self.assertNotIn("rgb", mesh.point_data)
         numpy.testing.assert_array_equal(mesh["point_id"], arrays["id"])
+
+    def test_a_cloud_of_a_server_is_drawn_as_its_file(self):
+        with FarServer(self.folder) as server:
+            far = pointfront.open(f"http://{HERE}:{server.port}/a.pfront")
+            plotter = self.plotter()
+            far.add_to(plotter, complete=True)
+            picture = plotter.screenshot(return_img=True)
+            mesh = far.to_pyvista(spacing=20)
+        numpy.testing.assert_array_equal(picture, self.picture(complete=True)[2])
+        self.assertGreater(picture.std(), 10)
+        numpy.testing.assert_array_equal(mesh.points, self.cloud.to_pyvista(spacing=20).points)
 
 
 if __name__ == "__main__":

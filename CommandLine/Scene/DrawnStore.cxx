@@ -4,6 +4,7 @@
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Style/FilterPruning.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
+#include "pointfront/Views/SplatReach.h"
 #include "pointfront/Views/WallReach.h"
 
 #include <algorithm>
@@ -76,7 +77,8 @@ const FrontDelta& DrawnStore::update(
   demand.layers = limits_;
   limitToLenses(styles_, shading, camera, std::max(demand.targetErrorPx, last().thresholdPx),
     tallestWall_, demand.layers);
-  demand.view = withWallsFromAbove(demand.view, tallestWall_);
+  demand.view =
+    withSplatsFromAside(withWallsFromAbove(demand.view, tallestWall_), largestSplat(styles_));
   return view_.update(std::move(demand));
 }
 

@@ -10,6 +10,7 @@
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/LensWindows.h"
 #include "pointfront/Style/GpuStreams.h"
+#include "pointfront/Views/SplatReach.h"
 #include "pointfront/Views/WallReach.h"
 
 #include <vtkActor.h>
@@ -122,10 +123,14 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   const std::vector<pointfront::LayerStyling>& styling = look.layers;
   const double walls =
     pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling);
+  const double splats = pointfront::largestSplat(styling);
   const pointfront::PosterTile tile(renderer);
   const pointfront::ViewportMargin margin = marginOf(renderer, look);
   const auto viewWith = [&](const pointfront::ViewportMargin& around)
-  { return pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor, around), walls); };
+  {
+    return pointfront::withSplatsFromAside(
+      pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor, around), walls), splats);
+  };
   demand.view = viewWith(tile.sight(margin, styling));
   demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     look.shading ? this->Internals->Style.pruning()

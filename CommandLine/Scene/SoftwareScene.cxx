@@ -87,7 +87,9 @@ Result<void> SoftwareScene::shareMemory()
   cost.pixelBytes *= targets;
   cost.pixelBytes += shading_.anyEyeDome() ? sizeof(float) : 0; // logarithms of depth
   cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
-  const auto kept = std::min<std::size_t>(SoftwareRasteriser::keptPictures, stores_.count());
+  const std::int64_t pixels = std::int64_t(options_.size[0]) * options_.size[1];
+  const auto most = static_cast<std::size_t>(SoftwareRasteriser::keptPictures(pixels));
+  const auto kept = std::min(most, stores_.count());
   cost.pixelBytes += stores_.count() > 1 ? kept * sizeof(RasterKey) : 0; // keys of last pictures
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
   cost.marginPixels = rasterMargin;

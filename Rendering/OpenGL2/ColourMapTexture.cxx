@@ -10,6 +10,13 @@
 
 namespace pointfront
 {
+namespace
+{
+
+/// So many are left out of the integers of heights.
+constexpr double mostSteps = 1 << 30;
+
+} // namespace
 
 ColourMapTexture::ColourMapTexture() = default;
 ColourMapTexture::~ColourMapTexture() = default;
@@ -34,7 +41,7 @@ void ColourMapTexture::update(vtkOpenGLRenderWindow* window, std::shared_ptr<con
 }
 
 void ColourMapTexture::activate(
-  vtkShaderProgram* program, const PointColouring& colouring, double referenceZ)
+  vtkShaderProgram* program, const PointColouring& colouring, double referenceZ, double stepZ)
 {
   texture_->Activate();
   const auto entries = static_cast<double>(map_->entries.size());
@@ -56,6 +63,10 @@ void ColourMapTexture::activate(
   program->SetUniformf("tableScale", static_cast<float>(scale));
   program->SetUniformf("tableLogLow", static_cast<float>(logLow));
   program->SetUniformi("tableLogarithmic", map_->logarithmic ? 1 : 0);
+  const double steps = std::round((low - referenceZ) / stepZ);
+  const double lowSteps = std::abs(steps) < mostSteps ? steps : 0.0;
+  program->SetUniformi("tableLowSteps", static_cast<int>(lowSteps));
+  program->SetUniformf("tableLowRest", static_cast<float>(lowSteps * stepZ - (low - referenceZ)));
 }
 
 void ColourMapTexture::deactivate()

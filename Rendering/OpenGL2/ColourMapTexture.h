@@ -26,8 +26,10 @@ public:
   void update(vtkOpenGLRenderWindow* window, std::shared_ptr<const ColourMap> map);
   /// The map of the texture.
   const std::shared_ptr<const ColourMap>& map() const { return map_; }
-  /// `referenceZ` is the store's z of the frame's reference point (elevations are relative to it).
-  void activate(vtkShaderProgram* program, const PointColouring& colouring, double referenceZ);
+  /// `referenceZ` is the store's z of the frame's reference point (elevations are relative to it),
+  /// `stepZ` a step of the store's grid.
+  void activate(
+    vtkShaderProgram* program, const PointColouring& colouring, double referenceZ, double stepZ);
   void deactivate();
   void release(vtkWindow* window);
 

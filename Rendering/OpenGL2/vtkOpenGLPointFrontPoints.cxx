@@ -193,7 +193,8 @@ void vtkOpenGLPointFrontPoints::SetMapperShaderParameters(
   cellBO.Program->SetUniform4f("flatColour", flat);
   if (drawing.table)
   {
-    drawing.table->activate(cellBO.Program, drawing.colouring, drawing.reference.z);
+    drawing.table->activate(
+      cellBO.Program, drawing.colouring, drawing.reference.z, drawing.stepSize.z);
   }
   this->SetClippingUniforms(cellBO.Program, act);
 }

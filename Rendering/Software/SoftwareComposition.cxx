@@ -141,7 +141,7 @@ RasterStatistics SoftwareComposition::draw(SoftwareRasteriser& rasteriser, const
     if (!own.rectangle().empty())
     {
       const RasterStatistics drawn =
-        rasteriser.draw(part.plan, own, store, { numberOf(part), complete && !part.mask });
+        rasteriser.draw(part.plan, own, store, { numberOf(part), complete });
       all.points += drawn.points;
       all.reused += drawn.reused;
       all.standIns += drawn.standIns;

@@ -23,8 +23,10 @@ namespace pointfront
 namespace
 {
 
-/// Levels times viewports of stand-ins whose keys stay beside those.
-constexpr std::int64_t keptStandIns = 6;
+/// Pixels and viewports whose keys stay from frame to frame.
+constexpr std::int64_t keptPixels = std::int64_t(8) << 20;
+constexpr std::int64_t fewestKept = 4;
+constexpr std::int64_t mostKept = 16;
 /// Buffers of a picture take that much at most, over all threads: a larger one is drawn in bands.
 constexpr std::int64_t mostBytes = std::int64_t(768) << 20;
 constexpr int leastRows = 64;
@@ -49,7 +51,6 @@ struct SoftwareRasteriser::Content
   {
     RasterPasses::Destination destination;
     LastPicture& picture;
-    bool whole = false; ///< all of the viewport is wanted
     bool known = false; ///< all that is wanted of the part is in the target
     bool fits = false; ///< the target is made as large as what is shown
     std::uint64_t reused = 0;
@@ -72,8 +73,8 @@ struct SoftwareRasteriser::Content
     const RasterPart& part, bool fits);
   void drawRound(const RasterItems& items, Drawing& drawing);
   void drawAtOnce(const RasterItems& items, RasterWindow window, Drawing& drawing);
-  std::uint64_t drawStandIns(const FramePlan& plan, std::uint32_t picture, SoftwareTarget& target,
-    std::uint16_t store, std::uint64_t& blended);
+  std::uint64_t drawStandIns(
+    const FramePlan& plan, std::uint32_t picture, const Drawing& seen, std::uint64_t& blended);
   void keep(const RasterItems& items, const RasterWindow& window, Drawing& drawing,
     RasterPasses::Lasting lasting);
 };
@@ -84,6 +85,12 @@ SoftwareRasteriser::SoftwareRasteriser(ThreadCrew* crew)
 }
 
 SoftwareRasteriser::~SoftwareRasteriser() = default;
+
+int SoftwareRasteriser::keptPictures(std::int64_t viewportPixels)
+{
+  const std::int64_t most = keptPixels / std::max<std::int64_t>(viewportPixels, 1);
+  return static_cast<int>(std::clamp(most, fewestKept, mostKept));
+}
 
 /// The next picture of the store goes on from this one; where the memory that it may take is taken,
 /// from who was visible in it only. `lasting`: where these are not the first thread's keys.
@@ -101,8 +108,8 @@ void SoftwareRasteriser::Content::keep(const RasterItems& items, const RasterWin
       pixels += standIns ? other.keyPixels() : 0;
     }
   }
-  const std::int64_t most = standIns ? keptStandIns : keptPictures;
-  if (pixels <= most * viewport.pixels())
+  const std::int64_t kept = keptPictures(std::int64_t(camera.width) * camera.height);
+  if (pixels <= (standIns ? kept + kept / 2 : kept) * viewport.pixels())
   {
     drawing.picture.keep(items, window,
       std::move(lasting.keys.data() ? lasting.keys : passes.buffers[0].keys),
@@ -119,7 +126,11 @@ void SoftwareRasteriser::Content::drawAtOnce(
   const RasterItems& items, RasterWindow window, Drawing& drawing)
 {
   LastPicture& picture = drawing.picture;
-  const LastPicture::Pieces pieces = picture.begin(items, window, passes.crew, drawing.whole);
+  const FrameCamera& camera = items.plan().camera;
+  const PixelRectangle most = drawing.fits ? PixelRectangle{ 0, 0, camera.width, camera.height }
+                                           : drawing.destination.target.rectangle();
+  const LastPicture::Pieces pieces =
+    picture.begin(items, window, passes.crew, drawing.known ? most : PixelRectangle());
   drawing.reused += pieces.reused;
   drawing.drawn += pieces.drawn;
   if (drawing.fits)
@@ -134,13 +145,9 @@ void SoftwareRasteriser::Content::drawAtOnce(
   RasterPasses::Lasting lasting = passes.drawPoints(items, window, pieces, picture.takeSums());
   drawing.blended += lasting.blended;
   passes.resolve(items, window, drawing.destination);
-  if (drawing.whole)
+  if (drawing.known)
   {
     keep(items, window, drawing, std::move(lasting));
-  }
-  else if (drawing.known)
-  {
-    picture.keepVisible(items, window, passes.buffers[0].keys.data(), passes.crew);
   }
   else
   {
@@ -163,16 +170,11 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
     drawAtOnce(items, windowOf(viewport), drawing); // every process has all of the same pixels
     return;
   }
+  const PixelRectangle most = drawing.fits ? viewport : drawing.destination.target.rectangle();
+  PixelRectangle place = shownRectangle(items);
+  place = !drawing.fits ? common(place, most) : only ? withHoles(place, plan) : viewport;
   // New points make the place larger, and a larger one would be begun anew.
-  PixelRectangle place = plan.refining ? viewport : shownRectangle(items);
-  if (drawing.fits)
-  {
-    place = only ? withHoles(place, plan) : viewport;
-  }
-  else
-  {
-    place = common(place, drawing.destination.target.rectangle());
-  }
+  place = plan.refining && !place.empty() ? common(viewport, most) : place;
   const std::int64_t pixelBytes =
     std::int64_t(passes.crew.threads()) * (items.blended() ? 24 : 8) + 4;
   const std::int64_t rowBytes = pixelBytes * windowOf(place).stride;
@@ -204,10 +206,9 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
 }
 
 /// Behind what is drawn already, level by level. Returns the number of points that are new.
-std::uint64_t SoftwareRasteriser::Content::drawStandIns(const FramePlan& plan,
-  std::uint32_t picture, SoftwareTarget& target, std::uint16_t store, std::uint64_t& blended)
+std::uint64_t SoftwareRasteriser::Content::drawStandIns(
+  const FramePlan& plan, std::uint32_t picture, const Drawing& seen, std::uint64_t& blended)
 {
-  const PixelRectangle viewport{ 0, 0, plan.camera.width, plan.camera.height };
   std::map<std::uint8_t, LastPicture>& levels = lastStandIns[picture];
   std::set<std::uint8_t> present;
   std::uint64_t drawn = 0;
@@ -226,8 +227,8 @@ std::uint64_t SoftwareRasteriser::Content::drawStandIns(const FramePlan& plan,
     {
       continue; // more than 32 bits can count: the picture has holes until it is complete
     }
-    Drawing drawing{ { target, store, true }, levels[level],
-      target.rectangle().contains(viewport) };
+    Drawing drawing{ seen.destination, levels[level], seen.known };
+    drawing.destination.standIns = true;
     drawRound(items, drawing);
     drawn += drawing.drawn;
     blended += drawing.blended;
@@ -248,8 +249,11 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   const PixelRectangle viewport{ 0, 0, asked.camera.width, asked.camera.height };
   const std::uint32_t picture = std::uint32_t(part.number) << 16 | store;
   const bool whole = fits || target.rectangle().contains(viewport);
-  Drawing drawing{ { target, store }, last.of(store, part.number), whole, whole || part.complete,
-    fits };
+  Drawing drawing{ { target, store }, last.of(store, part.number), whole || part.complete, fits };
+  for (auto each = lastStandIns.begin(); each != lastStandIns.end();)
+  {
+    each = last.has(each->first) ? std::next(each) : lastStandIns.erase(each);
+  }
   const bool keeps = asked.keepsVisible && !asked.exchange && drawing.known && !target.keepPoints;
   if (asked.batches.empty() && keeps)
   {
@@ -278,7 +282,7 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   }
   statistics.reused = drawing.reused;
   statistics.blended = drawing.blended;
-  statistics.standIns = drawStandIns(asked, picture, target, store, statistics.blended);
+  statistics.standIns = drawStandIns(asked, picture, drawing, statistics.blended);
   statistics.drawn = drawing.drawn + statistics.standIns;
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

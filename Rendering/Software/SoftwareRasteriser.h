@@ -42,16 +42,18 @@ struct RasterPart
 ///              adds points to the one before adds them to the last picture). Pictures of plans
 ///              that keep what was visible depend on the pictures before them.
 /// Memory       some buffers of the size of what a plan shows on the viewport, kept from frame to
-///              frame; one more for each further thread; with several stores, up to `keptPictures`
-///              more.
+///              frame; one more for each further thread; with several stores or parts, up to
+///              keptPictures() more.
 /// Threads      one thread at a time; draws with those of a crew.
 /// Source       docs/adr/0016.
 class SoftwareRasteriser
 {
 public:
-  /// Number of viewports whose keys stay from frame to frame, over all stores. Of further stores
-  /// only marks of visible points stay. Stand-ins of refining views have some beside them.
-  static constexpr int keptPictures = 4;
+  /// Number of viewports of that many pixels whose keys stay from frame to frame, over all stores
+  /// and parts: as many as eight million pixels have, but at least 4, and at most 16. Of further
+  /// ones only marks of visible points stay. Stand-ins of refining views have half as many again
+  /// beside them.
+  static int keptPictures(std::int64_t viewportPixels);
 
   /// Draws with the process's crew, unless another is given; it outlives this object.
   explicit SoftwareRasteriser(ThreadCrew* crew = nullptr);

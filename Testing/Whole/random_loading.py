@@ -77,11 +77,9 @@ class Loading(Pair):
             return None
         blends = said["blended_once"] > 0
         growing = case["growth"] > 0
-        # The software back end draws the inside of a lens anew in each frame (docs/papers.md).
-        on_software = () if "lenses" in case["style"] else (
-            ("drawn", "once", ONCE), ("blended", "blended_once", TWICE))
         limits = () if growing else (
-            *on_software, ("gl", "gl_once", ON_OPENGL if blends else ONCE))
+            ("drawn", "once", ONCE), ("blended", "blended_once", TWICE),
+            ("gl", "gl_once", ON_OPENGL if blends else ONCE))
         wrong = [f"{sum_} {said[sum_]:.0f} of {said[once]:.0f} at one go"
                  for sum_, once, most in limits if said[sum_] > most * said[once] + FEW]
         wrong += [f"{said[name]:.0f} pixels of the last frame differ ({name})"

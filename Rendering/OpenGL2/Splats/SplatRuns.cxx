@@ -65,7 +65,7 @@ void drawSplatRuns(const SplatFrame& frame, SlotRecords& records, vtkShaderProgr
   ColourMapTexture* const table = tabled ? frame.tableOf(style.map) : nullptr;
   if (table)
   {
-    table->activate(program, style.colouring, plan.camera.reference.z);
+    table->activate(program, style.colouring, plan.camera.reference.z, plan.grid.scale.z);
   }
   {
     const SplatAttributes attributes(program, variant.colour, valueStreamOf(valueSetOf(style)));

@@ -6,6 +6,21 @@ uniform float tableShift;     // added to a value: to the range's low end (linea
 uniform float tableScale;     // entries per unit (linear) or per decade (log)
 uniform float tableLogLow;    // log10 of the low end
 uniform int tableLogarithmic; // 0: linear
+uniform int tableLowSteps;    // the low end in grid steps from the reference point, of heights
+uniform float tableLowRest;   // its rounding, store units
+const float entriesBegin = 1.0 / 512.0; // early, in entries; as ColourMap.cxx
+
+vec4 entryColour(float entry)
+{
+  float n = float(tableSize);
+  float slack = 1e-6 * n; // both ends of the range belong to it, however they were rounded
+  int texel = entry < -slack ? 0 : (entry > n + slack ? tableSize + 1 : 1);
+  if (texel == 1)
+  {
+    texel += clamp(int(floor(entry + entriesBegin)), 0, tableSize - 1);
+  }
+  return texelFetch(colourTable, ivec2(texel, 0), 0);
+}
 
 /// Colour of a value. Twin: pointfront::ColourMap::at.
 vec4 tableColour(float value)
@@ -16,16 +31,15 @@ vec4 tableColour(float value)
     float positive = value + tableShift;
     entry = positive > 0.0 ? (log(positive) / log(10.0) - tableLogLow) * tableScale : -1.0;
   }
-  float n = float(tableSize);
-  float slack = 1e-6 * n; // both ends of the range belong to it, however they were rounded
-  int texel = entry < -slack ? 0 : (entry > n + slack ? tableSize + 1 : 1);
-  if (texel == 1)
-  {
-    texel += clamp(int(floor(entry)), 0, tableSize - 1);
-  }
-  if (isnan(value))
-  {
-    texel = tableSize + 2;
-  }
-  return texelFetch(colourTable, ivec2(texel, 0), 0);
+  return isnan(value) ? texelFetch(colourTable, ivec2(tableSize + 2, 0), 0) : entryColour(entry);
+}
+
+/// Colour of a height `steps` and `rest` above the frame's reference point. Steps are counted from
+/// the range's low end in integers: floats of heights far below the eye are coarser than an entry.
+vec4 heightColour(int steps, int shift, float stepSize, float rest)
+{
+  bool exact = tableLogarithmic == 0 && shift == 0 && abs(steps) < 1 << 30;
+  return exact
+    ? entryColour((float(steps - tableLowSteps) * stepSize + (rest + tableLowRest)) * tableScale)
+    : tableColour(float(steps) * (stepSize * exp2(float(shift))) + rest);
 }

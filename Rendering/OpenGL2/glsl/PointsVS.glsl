@@ -52,11 +52,14 @@ flat out ivec2 pointIdVSOutput;
 #endif
 
 /// The difference is taken in integers, where it is exact; only then it becomes float.
+ivec3 differenceOf(ivec4 steps)
+{
+  return ivec3(positionSteps >> uint(steps.w & 255)) - steps.xyz;
+}
+
 vec3 positionMC(ivec4 steps, vec3 base)
 {
-  int shift = steps.w & 255;
-  ivec3 difference = ivec3(positionSteps >> uint(shift)) - steps.xyz;
-  return vec3(difference) * (stepSize * exp2(float(shift))) + base;
+  return vec3(differenceOf(steps)) * (stepSize * exp2(float(steps.w & 255))) + base;
 }
 
 void main()
@@ -68,7 +71,8 @@ void main()
 
   vertexColorVSOutput = flatColour;
 #if POINTFRONT_COLOUR == 3
-  vertexColorVSOutput = tableColour(vertexMC.z);
+  vertexColorVSOutput = heightColour(
+    differenceOf(steps).z, steps.w & 255, stepSize.z, texelFetch(slotBase, slot).z);
 #elif POINTFRONT_COLOUR > 0
   if ((steps.w & 256) != 0)
   {

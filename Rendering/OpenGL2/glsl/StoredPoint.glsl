@@ -33,10 +33,10 @@ uniform float radiusBase;          // base of codes, store units
 
 //POINTFRONT::ColourMapTexture::Dec
 
-vec4 colourOf(int flags, int slot, vec3 difference, float steps)
+vec4 colourOf(int flags, int slot, int height, int shift)
 {
 #if POINTFRONT_COLOUR == 3
-  return tableColour(difference.z * (stepSize.z * steps) + texelFetch(slotBase, slot).z);
+  return heightColour(height, shift, stepSize.z, texelFetch(slotBase, slot).z);
 #elif POINTFRONT_COLOUR == 1
   return (flags & 256) != 0 ? pointColour : flatColour;
 #elif POINTFRONT_COLOUR == 2
@@ -89,13 +89,13 @@ Point pointOf()
   int slot = firstSlot + gl_VertexID / slotPoints;
   ivec4 steps = texelFetch(slotSteps, slot);
   int shift = steps.w & 255;
-  vec3 difference = vec3(ivec3(positionSteps >> uint(shift)) - steps.xyz);
+  ivec3 difference = ivec3(positionSteps >> uint(shift)) - steps.xyz;
   float width = exp2(float(shift));
   vec4 place = texelFetch(slotPlaces, slot);
-  point.camera = stepsToCamera * (difference * width) + place.xyz;
+  point.camera = stepsToCamera * (vec3(difference) * width) + place.xyz;
   float fall = texelFetch(slotBase, slot).w; // twin of PointGrowth.h
   point.grown = clamp(place.w - fall * float(gl_VertexID % slotPoints), 0.0, 1.0);
-  point.colour = colourOf(steps.w, slot, difference, width);
+  point.colour = colourOf(steps.w, slot, difference.z, shift);
   point.drawn = true;
 #if POINTFRONT_MARKED
   point.drawn = (steps.w & 256) != 0 && int(point.colour.a * 255.0 + 0.5) == styleMark;

@@ -127,11 +127,11 @@ bool LastPicture::goOn(const RasterItems& items, RasterWindow& window, ThreadCre
 }
 
 LastPicture::Pieces LastPicture::begin(
-  const RasterItems& items, RasterWindow& window, ThreadCrew& crew, bool wanted)
+  const RasterItems& items, RasterWindow& window, ThreadCrew& crew, const PixelRectangle& most)
 {
   Pieces pieces;
   std::vector<std::uint32_t> drawnUpTo;
-  pieces.goesOn = wanted && goOn(items, window, crew, drawnUpTo);
+  pieces.goesOn = most.contains(window_.rectangle()) && goOn(items, window, crew, drawnUpTo);
   drawnUpTo.resize(items.items().size(), 0u);
   lastingUpTo_.clear();
   for (std::size_t i = 0; i < items.items().size(); ++i)

@@ -2,6 +2,7 @@
 
 #include "DrawnItem.h"
 #include "ItemNumbers.h"
+#include "PixelRectangle.h"
 #include "RasterBuffers.h"
 #include "RasterItems.h"
 #include "RasterPieces.h"
@@ -41,9 +42,10 @@ public:
     std::uint64_t drawn = 0; ///< points of the pieces
   };
   /// If the keys are those of the same view: takes the pieces that are not in them yet, gives the
-  /// keys the new items' numbers, and makes the window that of the keys. Else, and unless `wanted`,
-  /// all pieces.
-  Pieces begin(const RasterItems& items, RasterWindow& window, ThreadCrew& crew, bool wanted);
+  /// keys the new items' numbers, and makes the window that of the keys. Else all pieces, and also
+  /// if the keys' window is not inside of `most`.
+  Pieces begin(
+    const RasterItems& items, RasterWindow& window, ThreadCrew& crew, const PixelRectangle& most);
 
   /// The keys' memory, for the next picture to be drawn into.
   RasterBuffer<RasterKey> takeKeys();

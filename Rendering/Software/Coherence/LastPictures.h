@@ -27,6 +27,8 @@ public:
     last.drawn = true;
     return last.picture;
   }
+  /// Whether there is a last picture with that number: part << 16 | store.
+  bool has(std::uint32_t number) const { return all_.count(number) > 0; }
   /// Pixels of the keys that are kept.
   std::int64_t keyPixels() const
   {

@@ -274,6 +274,45 @@ TEST(Composition, LensesHaveTranslucentClassesOfTheirOwnAndLaterOnesLieOnTop)
   EXPECT_EQ(at(picture, 32, 32), (Bytes{ 0, 200, 0, 255 }));
 }
 
+/// SMOOTH-5 in parts that do not fill the viewport; and the same bits as at one go.
+TEST(Composition, InsideOfALensNothingIsDrawnTwice)
+{
+  Sheets sheets;
+  sheets.add(1.0, red);
+  sheets.add(2.0, blue)->lens = 0;
+  const auto glass = sheets.add(1.5, green);
+  glass->lens = 0;
+  glass->group = 3;
+  glass->opacity = 0.5;
+  FrameLens lens;
+  lens.centrePx = { 30.0f, 33.0f };
+  lens.halfSizePx = glm::vec2(20.0f);
+  FramePlan& plan = sheets.scene.plan;
+  plan.shading.lenses = { lens };
+  plan.refining = true;
+  SoftwareRasteriser rasteriser;
+  SoftwareComposition composition;
+  const std::uint32_t all = plan.batches[0].items[0].last;
+  std::uint64_t drawn = 0;
+  for (int frame = 1; frame <= 6; ++frame)
+  {
+    SCOPED_TRACE(frame);
+    for (DrawBatch& batch : plan.batches)
+    {
+      batch.items[0].last = all * static_cast<std::uint32_t>(std::min(frame, 4)) / 4;
+    }
+    plan.refining = frame < 4;
+    // A smaller lens goes on from nothing, for its part of the picture is another one.
+    plan.shading.lenses[0].halfSizePx = glm::vec2(frame < 6 ? 20.0f : 10.0f);
+    SoftwareTarget picture;
+    picture.reset(size, size);
+    drawn += composition.draw(rasteriser, plan, picture).drawn;
+    composition.finish(plan.camera, plan.shading, picture);
+    EXPECT_EQ(picture.rgba, sheets.draw().rgba);
+    EXPECT_EQ(drawn, std::uint64_t(all) * (frame < 6 ? 3 : 5) * std::min(frame, 4) / 4);
+  }
+}
+
 TEST(Composition, AHighlightTintsAndHasARimOnWhatIsBehind)
 {
   Sheets sheets;

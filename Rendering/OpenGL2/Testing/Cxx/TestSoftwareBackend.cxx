@@ -82,6 +82,81 @@ TEST(SoftwareBackend, DrawsTheColoursThatOpenGLDraws)
   scene.expectAlike("flat");
 }
 
+/// Water: all of it has one height, here one between two entries of the table.
+TEST(SoftwareBackend, FlatGroundBetweenTwoColoursHasThatOfOpenGL)
+{
+  for (const double height : { 0.0, 17.3, 412.007 })
+  {
+    SCOPED_TRACE(height);
+    const std::string store = storeOf("water" + std::to_string(static_cast<int>(height)), 60 * 60,
+      [](std::size_t i)
+      {
+        Sample sample;
+        sample.position = { static_cast<int>(i % 60) * 50 - 1500,
+          static_cast<int>(i / 60) * 50 - 1500, 0 };
+        return sample;
+      },
+      { 0.0, 0.0, height });
+    Scene scene(store, { 0.0, 0.0, height });
+    scene.mapper->SetPointSize(9.0);
+    scene.mapper->SetScalarModeToUsePointFieldData();
+    scene.mapper->SelectColorArray("elevation");
+    scene.mapper->UseLookupTableScalarRangeOn();
+    for (int entries = 2; entries <= 256; entries *= 2)
+    {
+      vtkNew<vtkLookupTable> table;
+      table->SetNumberOfTableValues(entries);
+      table->SetTableRange(height - 4.1, height + 4.1);
+      for (int entry = 0; entry < entries; ++entry)
+      {
+        table->SetTableValue(entry, entry % 2, 1.0 - entry % 2, 1.0);
+      }
+      scene.mapper->SetLookupTable(table);
+      for (int move = 0; move < 4; ++move) // the eye is what floats count from
+      {
+        scene.lookFrom({ 0.3 * move, -2.0, height + 6.0 + 0.37 * move }, { 0.0, 0.0, height });
+        scene.mapper->SetBackendToOpenGL();
+        const Picture gl = scene.draw();
+        scene.mapper->SetBackendToSoftware();
+        const Picture software = scene.draw();
+        EXPECT_GT(gl.lit(), 2000);
+        EXPECT_LE(differing(gl, software, 2), gl.lit() / 50) << entries << " entries";
+      }
+    }
+  }
+}
+
+/// Floats of heights below an eye at 100 metres are coarser than what the entries differ by.
+TEST(SoftwareBackend, HeightsFarBelowTheEyeHaveTheColoursOfOpenGL)
+{
+  Scene scene(storeOf("ripples", 60 * 60,
+    [](std::size_t i)
+    {
+      Sample sample;
+      const int x = static_cast<int>(i % 60), y = static_cast<int>(i / 60);
+      sample.position = { x * 50 - 1500, y * 50 - 1500, (7 * x + 3 * y) % 41 - 20 };
+      return sample;
+    }));
+  scene.mapper->SetPointSize(2.0);
+  scene.mapper->SetScalarModeToUsePointFieldData();
+  scene.mapper->SelectColorArray("elevation");
+  scene.mapper->UseLookupTableScalarRangeOn();
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(256);
+  table->SetTableRange(-0.019, 0.019);
+  for (int entry = 0; entry < 256; ++entry)
+  {
+    table->SetTableValue(entry, entry % 2, 1.0 - entry % 2, 1.0);
+  }
+  scene.mapper->SetLookupTable(table);
+  scene.lookFrom({ 0.3, -2.0, 101.3 }, { 0.0, 0.0, 0.0 });
+  scene.renderer->GetActiveCamera()->SetViewAngle(1.5);
+  const Picture gl = scene.draw();
+  scene.mapper->SetBackendToSoftware();
+  EXPECT_GT(gl.lit(), 10000);
+  EXPECT_LE(differing(gl, scene.draw(), 2), gl.lit() / 50);
+}
+
 TEST(SoftwareBackend, FollowsActorsAndClippingPlanes)
 {
   Sheet scene;

@@ -83,3 +83,31 @@ TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
   EXPECT_FLOAT_EQ(batches[1].items[0].closingRadius, 1.0f);
   EXPECT_FLOAT_EQ(batches[1].items[1].closingRadius, 6.0f);
 }
+
+/// Cells of trees halve, so a node often covers a quarter of another layer's. A table says its
+/// place in other numbers than the node does, and their rounding must not decide.
+TEST(FramePlanner, AQuarterOfAnotherLayersGroundCountsHoweverItIsRounded)
+{
+  for (const double rounding : { -1e-7, 0.0, 1e-7 })
+  {
+    std::vector<DrawBatch> batches(1);
+    QuantisationGrid grid;
+    auto node = std::make_shared<NodeColumns>();
+    node->node = 0;
+    node->origin = grid.toGrid({ 0.0, 0.0, 0.0 });
+    node->halfSize = { 50.0f, 50.0f, 5.0f };
+    PlanItem sparse;
+    sparse.node = node;
+    sparse.last = 100;
+    sparse.closingRadius = 6.0f;
+    batches[0].items.push_back(sparse);
+    NodeElsewhere dense;
+    dense.node = 1;
+    dense.layer = 1;
+    dense.points = 10000;
+    dense.closingRadius = 0.5f;
+    dense.box = { { rounding, 0.0, 0.0 }, { 50.0, 50.0, 5.0 } };
+    matchNeighbours(batches, grid, { dense });
+    EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 1.0f) << rounding;
+  }
+}

@@ -16,8 +16,9 @@ namespace
 
 constexpr float mostOfDenser = 2.0f;
 constexpr double mostOfMean = 2.0;
-/// Share of a node's ground that another has to share to say how dense it is there.
-constexpr double leastShare = 0.25;
+/// Share of a node's ground that another has to share to say how dense it is there. Cells of trees
+/// halve, so a quarter is a usual share; a little less counts, too: rounding must not decide.
+constexpr double leastShare = 0.24;
 
 /// A node's ground in world units.
 struct Ground

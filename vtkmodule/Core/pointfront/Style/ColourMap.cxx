@@ -5,6 +5,15 @@
 
 namespace pointfront
 {
+namespace
+{
+
+/// An entry begins that share of its width early. Heights of flat ground lie on a bound between two
+/// entries as often as not, the middle of their range is one; so both back ends give them the upper
+/// entry, however they round. Twin: entriesBegin of ColourMapTexture.glsl.
+constexpr double early = 1.0 / 512.0;
+
+} // namespace
 
 Rgba8 ColourMap::at(double value) const
 {
@@ -31,7 +40,7 @@ Rgba8 ColourMap::at(double value) const
   const double width = scaled(range[1]) - scaled(range[0]);
   const double clamped = std::clamp(value, range[0], std::max(range[0], range[1]));
   const double share = width > 0.0 ? (scaled(clamped) - scaled(range[0])) / width : 0.0;
-  const double place = std::floor(share * static_cast<double>(entries.size()));
+  const double place = std::floor(share * static_cast<double>(entries.size()) + early);
   return entries[static_cast<std::size_t>(std::clamp(place, 0.0, last))];
 }
 

@@ -154,6 +154,7 @@ void expectCoveredAndAsAtOneGo(
   testing::Test::RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
   testing::Test::RecordProperty("least_covered", std::to_string(covered));
   SlowView atOnce(refiningTown(), refiningSheet(style));
+  atOnce.demand = view.demand;
   atOnce.frame(true);
   EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
   EXPECT_EQ(view.target.depth, atOnce.target.depth);
@@ -170,6 +171,23 @@ TEST_P(RefiningView, DrawsNothingTwice)
   const SeenFrames seen = refine(view);
   ASSERT_TRUE(view.isComplete());
   EXPECT_GE(seen.gained, 3); // it was seen to load; a slow machine draws few frames meanwhile
+  EXPECT_LE(seen.drawnPerPoint(), mostDrawnAgain) << seen.frames << " frames";
+  EXPECT_LE(seen.blendedPerPoint(), mostBlendedAgain) << seen.frames << " frames";
+  expectCoveredAndAsAtOneGo(view, seen, GetParam());
+}
+
+/// A detail that is one for the whole view (SMOOTH-3) knows its complete view, too.
+TEST_P(RefiningView, OfViewSpecificDetailDrawsNothingTwice)
+{
+  const std::shared_ptr<const PointStore> store = refiningTown();
+  ASSERT_TRUE(store);
+  SlowView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
+  SlowView view(store, refiningSheet(GetParam()));
+  view.demand.method = DetailMethod::ViewSpecific;
+  view.demand.overviewPoints = townPoints / 20;
+  const SeenFrames seen = refine(view);
+  ASSERT_TRUE(view.isComplete());
+  EXPECT_GE(seen.gained, 3);
   EXPECT_LE(seen.drawnPerPoint(), mostDrawnAgain) << seen.frames << " frames";
   EXPECT_LE(seen.blendedPerPoint(), mostBlendedAgain) << seen.frames << " frames";
   expectCoveredAndAsAtOneGo(view, seen, GetParam());

@@ -6,8 +6,10 @@
 namespace pointfront
 {
 
-ExpectedNodes::ExpectedNodes(std::shared_ptr<const Hierarchy> hierarchy)
+ExpectedNodes::ExpectedNodes(
+  std::shared_ptr<const Hierarchy> hierarchy, WholeFront::Selection selection)
   : hierarchy_(std::move(hierarchy))
+  , selection_(selection)
 {
 }
 
@@ -15,7 +17,7 @@ void ExpectedNodes::update(const View& view, const FrontLimits& limits, double t
 {
   if (!front_)
   {
-    front_ = std::make_unique<WholeFront>(hierarchy_);
+    front_ = std::make_unique<WholeFront>(hierarchy_, selection_);
     seen_ = 0;
   }
   const FrontDelta& delta = front_->update(view, limits, thresholdPx, {});

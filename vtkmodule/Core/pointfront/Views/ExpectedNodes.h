@@ -19,7 +19,8 @@ namespace pointfront
 class ExpectedNodes
 {
 public:
-  explicit ExpectedNodes(std::shared_ptr<const Hierarchy> hierarchy);
+  explicit ExpectedNodes(std::shared_ptr<const Hierarchy> hierarchy,
+    WholeFront::Selection selection = WholeFront::Selection::RenderingFront);
 
   /// `thresholdPx`: where the threshold of the view will stop.
   void update(const View& view, const FrontLimits& limits, double thresholdPx);
@@ -39,6 +40,7 @@ public:
 
 private:
   std::shared_ptr<const Hierarchy> hierarchy_;
+  WholeFront::Selection selection_;
   std::unique_ptr<WholeFront> front_; ///< null: finished
   std::uint64_t seen_ = 0; ///< number of the delta that nodes_ are made of
   std::vector<TabledNode> nodes_;

@@ -159,6 +159,7 @@ void ViewFront::choose(DetailMethod method)
     return;
   }
   method_ = method;
+  expected_.reset();
   told_ = 0;
   // The wish's distance function asks the selection that is there when it is called.
   if (method == DetailMethod::ViewSpecific)

@@ -73,7 +73,7 @@ public:
 
   /// The nodes of the complete view, while a view at rest is being loaded and as long as it rests;
   /// null: it is in motion, was complete from the first, or they are not known. Not known are those
-  /// of pieces of a hierarchy and of DetailMethod::ViewSpecific.
+  /// of pieces of a hierarchy.
   const ExpectedNodes* expected() const { return expected_.get(); }
 
   /// Tells that nobody sees the view until the next update. Its part of all shared budgets goes to

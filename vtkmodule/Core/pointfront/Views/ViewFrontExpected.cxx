@@ -9,7 +9,8 @@ namespace pointfront
 void ViewFront::expect(const FrameRequest& demand)
 {
   const bool rests = !demand.interacting && !demand.complete;
-  if (!rests || others_ || method_ != DetailMethod::RenderingFront)
+  const bool byView = method_ == DetailMethod::ViewSpecific;
+  if (!rests || others_)
   {
     expected_.reset();
     return;
@@ -21,9 +22,11 @@ void ViewFront::expect(const FrameRequest& demand)
   }
   if (!expected_)
   {
-    expected_ = std::make_unique<ExpectedNodes>(piece_->hierarchy());
+    expected_ = std::make_unique<ExpectedNodes>(piece_->hierarchy(),
+      byView ? WholeFront::Selection::ViewSpecific : WholeFront::Selection::RenderingFront);
   }
-  const bool limited = delta_.limitedByBudget || delta_.limitedByGpu || delta_.limitedByMemory;
+  const bool limited =
+    !byView && (delta_.limitedByBudget || delta_.limitedByGpu || delta_.limitedByMemory);
   expected_->update(demand.view, limits_, limited ? delta_.thresholdPx : demand.targetErrorPx);
 }
 

@@ -1,5 +1,6 @@
 #include "pointfront/Views/WholeFront.h"
 
+#include "pointfront/Detail/ViewDetail.h"
 #include "pointfront/Front/RenderFront.h"
 
 #include <algorithm>
@@ -26,24 +27,42 @@ public:
   std::uint64_t revision() const override { return 1; }
 };
 
-WholeFront::WholeFront(std::shared_ptr<const Hierarchy> hierarchy)
+WholeFront::WholeFront(std::shared_ptr<const Hierarchy> hierarchy, Selection selection)
   : hierarchy_(std::move(hierarchy))
+  , selection_(selection)
   , residents_(std::make_unique<AllResident>())
-  , front_(std::make_unique<RenderFront>(hierarchy_))
 {
+  if (selection == Selection::ViewSpecific)
+  {
+    front_ = std::make_unique<ViewDetail>(hierarchy_);
+  }
+  else
+  {
+    front_ = std::make_unique<RenderFront>(hierarchy_);
+  }
 }
 
 WholeFront::~WholeFront() = default;
 
-const FrontDelta& WholeFront::update(const View& view, const FrontLimits& limits,
-  double thresholdPx, const std::function<bool()>& waits)
+FrontLimits WholeFront::limitsOf(const FrontLimits& limits, double thresholdPx) const
 {
   FrontLimits all; // no budgets: they are in the threshold
   all.layers = limits.layers;
+  if (selection_ == Selection::ViewSpecific)
+  {
+    all = limits;
+  }
   all.targetErrorPx = thresholdPx;
   all.initialErrorPx = thresholdPx;
   all.movesPerFrame = movesOfUpdate;
   all.prefetchSiblings = false;
+  return all;
+}
+
+const FrontDelta& WholeFront::update(const View& view, const FrontLimits& limits,
+  double thresholdPx, const std::function<bool()>& waits)
+{
+  const FrontLimits all = limitsOf(limits, thresholdPx);
   delta_ = nullptr;
   for (int i = 0; i < mostUpdates && (!delta_ || !delta_->complete); ++i)
   {

@@ -24,7 +24,15 @@ struct TabledNode
 class WholeFront
 {
 public:
-  explicit WholeFront(std::shared_ptr<const Hierarchy> hierarchy);
+  /// How detail is chosen.
+  enum class Selection
+  {
+    RenderingFront, ///< RenderFront: by the threshold alone
+    ViewSpecific ///< ViewDetail: by all limits; `thresholdPx` is its target
+  };
+
+  explicit WholeFront(
+    std::shared_ptr<const Hierarchy> hierarchy, Selection selection = Selection::RenderingFront);
   ~WholeFront();
 
   /// Updates for a view with the layers of `limits`, at a threshold. `waits`: as long as it is true
@@ -37,7 +45,10 @@ public:
 
 private:
   class AllResident;
+  FrontLimits limitsOf(const FrontLimits& limits, double thresholdPx) const;
+
   std::shared_ptr<const Hierarchy> hierarchy_;
+  Selection selection_;
   std::unique_ptr<AllResident> residents_;
   std::unique_ptr<DetailSelection> front_;
   const FrontDelta* delta_ = nullptr; ///< the front's

@@ -44,58 +44,6 @@ ProcessScheduler& processScheduler()
 
 } // namespace
 
-LoadScheduler::Content::Member* LoadScheduler::Content::memberOf(const StoreNodes& store)
-{
-  const auto found = std::find_if(members.begin(), members.end(),
-    [&](const Member& member) { return member.store.get() == &store; });
-  return found != members.end() ? &*found : nullptr;
-}
-
-/// Bytes that must be freed for what waits; what is released but still held somewhere is on its
-/// way already.
-std::size_t LoadScheduler::Content::bytesWanted() const
-{
-  std::size_t sum = 0;
-  for (const Member& member : members)
-  {
-    // Nodes that a store's own budget does not let in need no room here.
-    const std::size_t staying = member.store->stayingBytes();
-    const std::size_t own = std::max(member.store->budget().ownLimit(), staying);
-    sum += std::min(member.store->waitingBytes() + staying, own);
-  }
-  const std::size_t limit = budget->limit();
-  return sum > limit ? sum - limit : 0;
-}
-
-void LoadScheduler::Content::releaseFrom(
-  ReleasePlan& plan, std::size_t bytes, StoreNodes::Gone& gone)
-{
-  for (const ReleasePlan::Candidate& candidate : plan.farthest(bytes))
-  {
-    members[candidate.store].store->release(candidate.node, gone);
-  }
-}
-
-/// Whether a thread stays in its read. One that waits for a far source has been told to stop and
-/// gets until `patience` for it.
-bool LoadScheduler::Content::hangsAtTheEnd(const Worker& worker, Clock::time_point patience)
-{
-  while (true)
-  {
-    const std::uint64_t seen = budget->changes();
-    {
-      const std::lock_guard<std::mutex> lock(mutex);
-      const Clock::time_point now = Clock::now();
-      const bool late = worker.far ? now >= patience : now - worker.since >= options.overdueAfter;
-      if (!worker.fetching || !worker.far || late)
-      {
-        return worker.fetching && late;
-      }
-    }
-    budget->waitForChange(seen, patience);
-  }
-}
-
 LoadScheduler::LoadScheduler(const LoadSchedulerOptions& options)
   : LoadScheduler(options, std::make_shared<MemoryBudget>(options.budgetBytes))
 {

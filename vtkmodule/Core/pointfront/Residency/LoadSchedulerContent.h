@@ -2,6 +2,7 @@
 
 #include "pointfront/Residency/DiskLane.h"
 #include "pointfront/Residency/FarLanes.h"
+#include "pointfront/Residency/LoadJob.h"
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/StoreNodes.h"
 #include "pointfront/Threads/WorkerThread.h"
@@ -19,8 +20,8 @@
 namespace pointfront
 {
 
-/// The stores of a scheduler, and the threads that load them. Who belongs to it and what they give
-/// back is in LoadScheduler.cxx, what the threads do in LoadWorkers.cxx.
+/// The stores of a scheduler, and the threads that load them. It lives as long as any of these
+/// threads, and the scheduler may end before.
 struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Content>
 {
   using Clock = DiskLane::Clock;
@@ -32,21 +33,10 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
     NodeCache::Distance distance; ///< null until its first release()
     bool far = false; ///< read on a lane of its server
   };
-  /// A job of a disk has one task.
-  struct Job
+  struct Read
   {
-    std::shared_ptr<StoreNodes> store;
-    std::vector<StoreNodes::Task> tasks;
+    LoadJob job;
     DiskLane::Ticket ticket = 0; ///< or of FarLanes
-    std::shared_ptr<ReadStop> stop; ///< null: of a disk
-  };
-  /// How far a job is: the rest is still to be done if it breaks off.
-  struct Progress
-  {
-    Clock::time_point begin;
-    bool fetching = true; ///< its lane is not free yet
-    std::size_t kept = 0; ///< tasks of which the store has the node, or knows why not
-    std::size_t left = 0; ///< tasks that are no longer loading
   };
   struct Worker
   {
@@ -87,16 +77,14 @@ struct LoadScheduler::Content : std::enable_shared_from_this<LoadScheduler::Cont
   void replaceHanging(Clock::time_point now);
   bool mayRead(const Member& member, Clock::time_point now) const;
   std::size_t batchBytes(const ReadCost& cost) const;
-  std::optional<Job> take(Clock::time_point now);
-  std::optional<Job> begin(const Member& member, Clock::time_point now);
+  std::optional<Read> take(Clock::time_point now);
+  std::optional<Read> begin(const Member& member, Clock::time_point now);
   void work(Worker& self);
   void takeTurn(Worker& self, std::uint64_t seen);
   void loadHere();
-  void perform(Worker& self, const Job& job);
-  void load(Worker& self, const Job& job, Progress& progress);
-  void finish(const Job& job, Result<FetchedNode> fetched, Progress& progress);
-  void readRows(Worker& self, const Job& job);
-  void freeLane(Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead);
+  class ReadListener;
+  void perform(Worker& self, Read& read);
+  void freeLane(Worker& self, const Read& read, Clock::time_point begin, std::size_t bytesRead);
   bool hangsAtTheEnd(const Worker& worker, Clock::time_point patience);
   Member* memberOf(const StoreNodes& store);
   std::size_t bytesWanted() const;

@@ -1,6 +1,5 @@
 #include "pointfront/Residency/LoadSchedulerContent.h"
 
-#include "pointfront/Base/CpuClock.h"
 #include "pointfront/Threads/ThreadPriority.h"
 
 #include <algorithm>
@@ -25,30 +24,8 @@ constexpr int failuresThatStarve = 30;
 /// FRONT-9: loading must not disturb the drawing.
 constexpr int niceness = 5;
 
-/// Nodes of one batch at most.
-constexpr std::size_t mostOfABatch = 64;
-
 /// A batch of a source that does not say how much it should be has so many bytes.
 constexpr std::size_t usualBatchBytes = std::size_t(1) << 20;
-
-/// Calls `step`; an exception becomes an Error that names the node.
-template <typename Step>
-auto guarded(NodeIndex node, const Step& step) -> decltype(step())
-{
-  const std::string name = "node " + std::to_string(node);
-  try
-  {
-    return step();
-  }
-  catch (const std::bad_alloc&)
-  {
-    return makeError(Error::Kind::NoMemory, name + ": no memory to decode");
-  }
-  catch (const std::exception& exception)
-  {
-    return makeError(Error::Kind::Corrupt, name + ": " + exception.what());
-  }
-}
 
 } // namespace
 
@@ -133,7 +110,7 @@ std::size_t LoadScheduler::Content::batchBytes(const ReadCost& cost) const
 }
 
 /// The most urgent request of all stores that may be read now.
-std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::time_point now)
+std::optional<LoadScheduler::Content::Read> LoadScheduler::Content::take(Clock::time_point now)
 {
   if (farMembers == 0 && lane.busy(now))
   {
@@ -160,63 +137,43 @@ std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::take(Clock::t
 }
 
 /// None when nothing fits any more: that is a change that wakes us.
-std::optional<LoadScheduler::Content::Job> LoadScheduler::Content::begin(
+std::optional<LoadScheduler::Content::Read> LoadScheduler::Content::begin(
   const Member& member, Clock::time_point now)
 {
-  StoreNodes& store = *member.store;
-  const NodeReader& reader = store.reader();
-  Job job;
-  job.store = member.store;
-  // A node counts as loading from here on. So nothing may run out of memory before somebody sees
-  // to it that this ends.
-  job.tasks.reserve(member.far ? mostOfABatch : 1);
+  const NodeReader& reader = member.store->reader();
+  Read read{ LoadJob(member.store, member.far, member.far ? batchBytes(reader.readCost()) : 0) };
+  if (read.job.empty())
+  {
+    return std::nullopt;
+  }
   try
   {
-    if (member.far)
-    {
-      job.stop = std::make_shared<ReadStop>(false);
-      store.beginBatch(batchBytes(reader.readCost()), mostOfABatch, job.stop, job.tasks);
-    }
-    else if (std::optional<StoreNodes::Task> task = store.begin())
-    {
-      job.tasks.push_back(std::move(*task));
-    }
-    if (job.tasks.empty())
-    {
-      return std::nullopt;
-    }
-    job.ticket = member.far ? farLanes.enter(&store, reader.disk(), job.stop)
-                            : lane.enter(&store, reader.disk(), now);
+    StoreNodes* const store = member.store.get();
+    read.ticket = member.far ? farLanes.enter(store, reader.disk(), read.job.stop())
+                             : lane.enter(store, reader.disk(), now);
   }
   catch (...)
   {
-    for (const StoreNodes::Task& task : job.tasks)
-    {
-      if (task.node != noNode)
-      {
-        store.abandon(task);
-      }
-      store.leave(task);
-    }
+    read.job.giveUp();
     throw;
   }
-  return job;
+  return read;
 }
 
 void LoadScheduler::Content::freeLane(
-  Worker& self, const Job& job, Clock::time_point begin, std::size_t bytesRead)
+  Worker& self, const Read& read, Clock::time_point begin, std::size_t bytesRead)
 {
   {
     const std::lock_guard<std::mutex> lock(mutex);
     double seconds = std::chrono::duration<double>(Clock::now() - begin).count();
-    if (job.stop)
+    if (read.job.stop())
     {
       seconds /= static_cast<double>(farLanes.count()); // the time is that of all of them
-      farLanes.leave(job.ticket);
+      farLanes.leave(read.ticket);
     }
     else
     {
-      lane.leave(job.ticket);
+      lane.leave(read.ticket);
     }
     self.fetching = false;
     loaded.fetchSeconds += seconds;
@@ -225,129 +182,38 @@ void LoadScheduler::Content::freeLane(
   budget->announceChange();
 }
 
-/// The table keeps what was read, and tells who waits.
-void LoadScheduler::Content::readRows(Worker& self, const Job& job)
+/// Frees the lane of a read when it has ended, and adds up what was loaded.
+class LoadScheduler::Content::ReadListener final : public LoadJob::Listener
 {
-  const Clock::time_point begin = Clock::now();
-  const auto end = [&](std::size_t bytesRead)
+public:
+  ReadListener(Content& content, Worker& self, const Read& read)
+    : content_(content)
+    , self_(self)
+    , read_(read)
   {
-    freeLane(self, job, begin, bytesRead);
-    job.store->leave(job.tasks.front());
-    budget->announceChange();
-  };
-  try
-  {
-    end(job.store->reader().missingRows()->readNext());
   }
-  catch (...)
-  {
-    end(0); // the rows are still missing
-    throw;
-  }
-}
 
-void LoadScheduler::Content::perform(Worker& self, const Job& job)
-{
-  if (job.tasks.front().node == noNode)
+  void fetched(std::size_t bytes) override { content_.freeLane(self_, read_, begin_, bytes); }
+  void decoded(double seconds, std::size_t bytes) override
   {
-    readRows(self, job);
-    return;
+    const std::lock_guard<std::mutex> lock(content_.mutex);
+    content_.loaded.decodeSeconds += seconds;
+    content_.loaded.lastLoaded = Clock::now();
+    content_.loaded.decodedBytes += bytes;
   }
-  Progress progress;
-  progress.begin = Clock::now();
-  // Whatever runs out of memory here, be it the words of an Error: who waits for the end of the
-  // loading must not wait for ever.
-  try
-  {
-    load(self, job, progress);
-  }
-  catch (...)
-  {
-    if (progress.fetching)
-    {
-      freeLane(self, job, progress.begin, 0);
-    }
-    for (; progress.kept < job.tasks.size(); ++progress.kept)
-    {
-      job.store->abandon(job.tasks[progress.kept]);
-    }
-    for (; progress.left < job.tasks.size(); ++progress.left)
-    {
-      job.store->leave(job.tasks[progress.left]);
-    }
-    budget->announceChange();
-    throw;
-  }
-}
+  void changed() override { content_.budget->announceChange(); }
 
-void LoadScheduler::Content::load(Worker& self, const Job& job, Progress& progress)
-{
-  const NodeReader& reader = job.store->reader();
-  const StoreNodes::Task& first = job.tasks.front();
-  std::vector<Result<FetchedNode>> fetched;
-  if (job.stop)
-  {
-    std::vector<WantedNode> wanted;
-    for (const StoreNodes::Task& task : job.tasks)
-    {
-      wanted.push_back({ task.node, task.columns });
-    }
-    using All = Result<std::vector<Result<FetchedNode>>>;
-    All all = guarded(first.node, [&] { return All(reader.fetchAll(wanted, *job.stop)); });
-    if (all)
-    {
-      fetched = std::move(*all);
-    }
-    while (fetched.size() < job.tasks.size())
-    {
-      fetched.emplace_back(all.error());
-    }
-  }
-  else
-  {
-    fetched.push_back(guarded(first.node, [&] { return reader.fetch(first.node, first.columns); }));
-  }
-  std::size_t bytesRead = 0;
-  for (const Result<FetchedNode>& node : fetched)
-  {
-    bytesRead += node ? node->bytesRead : 0;
-  }
-  progress.fetching = false;
-  freeLane(self, job, progress.begin, bytesRead);
-  for (Result<FetchedNode>& node : fetched)
-  {
-    finish(job, std::exchange(node, makeError(Error::Kind::Cancelled, "decoded")), progress);
-  }
-}
+private:
+  Content& content_;
+  Worker& self_;
+  const Read& read_;
+  const Clock::time_point begin_ = Clock::now();
+};
 
-/// Decodes the next node of a job.
-void LoadScheduler::Content::finish(const Job& job, Result<FetchedNode> fetched, Progress& progress)
+void LoadScheduler::Content::perform(Worker& self, Read& read)
 {
-  const NodeReader& reader = job.store->reader();
-  const StoreNodes::Task& task = job.tasks[progress.kept];
-  const std::size_t bytesRead = fetched ? fetched->bytesRead : 0;
-  double decodeSeconds = -threadSeconds();
-  Result<NodeColumns> result = fetched ? guarded(task.node, [&] { return reader.decode(*fetched); })
-                                       : Result<NodeColumns>(fetched.error());
-  decodeSeconds += threadSeconds();
-  fetched = makeError(Error::Kind::Cancelled, "decoded"); // its bytes go before anyone is told
-  {
-    const std::lock_guard<std::mutex> lock(mutex);
-    loaded.decodeSeconds += decodeSeconds;
-    loaded.lastLoaded = Clock::now();
-    loaded.decodedBytes += result ? result->bytes() : 0;
-  }
-  ++progress.kept;
-  const bool news = job.store->finish(task, std::move(result), bytesRead);
-  budget->announceChange();
-  if (news)
-  {
-    job.store->tell();
-  }
-  // Only now: who waits until nothing is loading may count on all having been told.
-  job.store->leave(task);
-  ++progress.left;
-  budget->announceChange();
+  ReadListener listener(*this, self, read);
+  read.job.run(listener);
 }
 
 void LoadScheduler::Content::work(Worker& self)
@@ -375,7 +241,7 @@ void LoadScheduler::Content::work(Worker& self)
 void LoadScheduler::Content::takeTurn(Worker& self, std::uint64_t seen)
 {
   const Clock::time_point now = Clock::now();
-  std::optional<Job> job;
+  std::optional<Read> read;
   std::optional<Clock::time_point> lookAgain;
   {
     const std::lock_guard<std::mutex> lock(mutex);
@@ -385,9 +251,9 @@ void LoadScheduler::Content::takeTurn(Worker& self, std::uint64_t seen)
       return;
     }
     replaceHanging(now);
-    job = take(now);
-    self.fetching = job.has_value();
-    self.far = job && job->stop;
+    read = take(now);
+    self.fetching = read.has_value();
+    self.far = read && read->job.stop();
     self.since = now;
     if (self.far)
     {
@@ -395,9 +261,9 @@ void LoadScheduler::Content::takeTurn(Worker& self, std::uint64_t seen)
     }
     lookAgain = lane.freeAt(now);
   }
-  if (job)
+  if (read)
   {
-    perform(self, *job);
+    perform(self, *read);
   }
   else if (lookAgain)
   {
@@ -415,20 +281,72 @@ void LoadScheduler::Content::loadHere()
   while (true)
   {
     Worker self;
-    std::optional<Job> job;
+    std::optional<Read> read;
     {
       const std::lock_guard<std::mutex> lock(mutex);
       if (!workers.empty() || addWorker())
       {
         return;
       }
-      job = take(Clock::now());
+      read = take(Clock::now());
     }
-    if (!job)
+    if (!read)
     {
       return;
     }
-    perform(self, *job);
+    perform(self, *read);
+  }
+}
+
+LoadScheduler::Content::Member* LoadScheduler::Content::memberOf(const StoreNodes& store)
+{
+  const auto found = std::find_if(members.begin(), members.end(),
+    [&](const Member& member) { return member.store.get() == &store; });
+  return found != members.end() ? &*found : nullptr;
+}
+
+/// Bytes that must be freed for what waits; what is released but still held somewhere is on its
+/// way already.
+std::size_t LoadScheduler::Content::bytesWanted() const
+{
+  std::size_t sum = 0;
+  for (const Member& member : members)
+  {
+    // Nodes that a store's own budget does not let in need no room here.
+    const std::size_t staying = member.store->stayingBytes();
+    const std::size_t own = std::max(member.store->budget().ownLimit(), staying);
+    sum += std::min(member.store->waitingBytes() + staying, own);
+  }
+  const std::size_t limit = budget->limit();
+  return sum > limit ? sum - limit : 0;
+}
+
+void LoadScheduler::Content::releaseFrom(
+  ReleasePlan& plan, std::size_t bytes, StoreNodes::Gone& gone)
+{
+  for (const ReleasePlan::Candidate& candidate : plan.farthest(bytes))
+  {
+    members[candidate.store].store->release(candidate.node, gone);
+  }
+}
+
+/// Whether a thread stays in its read. One that waits for a far source has been told to stop and
+/// gets until `patience` for it.
+bool LoadScheduler::Content::hangsAtTheEnd(const Worker& worker, Clock::time_point patience)
+{
+  while (true)
+  {
+    const std::uint64_t seen = budget->changes();
+    {
+      const std::lock_guard<std::mutex> lock(mutex);
+      const Clock::time_point now = Clock::now();
+      const bool late = worker.far ? now >= patience : now - worker.since >= options.overdueAfter;
+      if (!worker.fetching || !worker.far || late)
+      {
+        return worker.fetching && late;
+      }
+    }
+    budget->waitForChange(seen, patience);
   }
 }
 

@@ -14,7 +14,7 @@ enum ExitStatus : int
 {
   Done = 0,
   Failed = 1, ///< the operation failed: one line on stderr says what, where, what to try
-  WrongUsage = 2, ///< unknown, contradictory or not yet available option: nothing was begun
+  WrongUsage = 2, ///< unknown or contradictory option: nothing was begun
   Interrupted = 130 ///< cancelled by SIGINT or SIGTERM; nothing is left behind
 };
 

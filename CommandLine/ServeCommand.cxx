@@ -1,5 +1,7 @@
 #include "ServeCommand.h"
 
+#include "CloudFormats.h"
+
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
@@ -71,6 +73,10 @@ Result<void> ServeCommand::run()
   std::vector<std::string> command{ python, "-m", "pointfront", "serve" };
   const std::vector<std::string> further = app_->remaining();
   command.insert(command.end(), further.begin(), further.end());
+  if (const std::string far = credentialsForChild(further); !far.empty())
+  {
+    ::setenv("POINTFRONT_FAR", far.c_str(), 1);
+  }
   const std::vector<char*> words = wordsFor(command);
   execvp(words[0], words.data());
   return makeError(

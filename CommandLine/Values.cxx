@@ -153,8 +153,16 @@ CLI::Validator wholeNumber()
     {
       text = std::to_string(static_cast<std::uint64_t>(*number));
     }
-    return isCount(text) ? std::string()
-                         : "'" + text.substr(0, 40) + "' is not a count: 0, 1, 2 ... 1e6 ...";
+    if (isCount(text))
+    {
+      return {};
+    }
+    const std::string refused = "'" + text.substr(0, 40) + "' is not a count: ";
+    const std::size_t unit = text.empty() ? 0 : std::string("kMGT").find(text.back());
+    const bool shortened = unit < 4 && isCount(text.substr(0, text.size() - 1));
+    return shortened
+      ? refused + "write " + text.substr(0, text.size() - 1) + "e" + std::to_string(3 * (unit + 1))
+      : refused + "0, 1, 2 ... 1e6 ...";
   };
   return CLI::Validator(check, "COUNT");
 }

@@ -9,6 +9,8 @@
 #include "Values.h"
 #include "WholeFile.h"
 
+#include "pointfront/Base/NearestName.h"
+
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
@@ -66,6 +68,7 @@ void BenchCommand::declare(CLI::App& program)
   app_->add_option("--path", path_, "orbit, zoom, flight, or a file with a list of cameras (orbit)")
     ->type_name("PATH");
   app_->add_option("--frames", frames_, "Frames (100; of a file: as many as it says)")
+    ->transform(wholeNumber())
     ->check(CLI::Range(1, 1000000))
     ->type_name("N");
   app_->add_flag("--interactive", interactive_,
@@ -112,7 +115,11 @@ Result<CameraPath> BenchCommand::path(const StoreScene& scene) const
   {
     return flightPath(subject, frames);
   }
-  return readPathFile(path_, frames_);
+  Result<CameraPath> path = readPathFile(path_, frames_);
+  return path || path.error().kind != Error::Kind::Unreadable
+    ? std::move(path)
+    : makeError(Error::Kind::Unreadable,
+        path.error().what + didYouMean(path_, { "orbit", "zoom", "flight" }));
 }
 
 Result<void> BenchCommand::run()

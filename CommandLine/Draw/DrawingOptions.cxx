@@ -53,18 +53,12 @@ void declareBackend(CLI::App& app, DrawingOptions& options)
 {
   const std::map<std::string, DrawingBackend> backends{ { "auto", DrawingBackend::Auto },
     { "opengl", DrawingBackend::OpenGL }, { "software", DrawingBackend::Software } };
-  const auto backend = word("--backend", "a back end: use auto, opengl, software",
-    [&options, backends](const std::string& text)
-    {
-      const auto found = backends.find(text);
-      options.backend = found != backends.end() ? found->second : options.backend;
-      return found != backends.end();
-    });
+  const auto take = [&options, backends](const std::string& text)
+  { options.backend = backends.at(text); };
   app
-    .add_option("--backend", backend,
+    .add_option_function<std::string>("--backend", take,
       "software: no display and no GL needed; opengl: VTK, on an X server (auto: software)")
-    ->type_name("auto|opengl|software")
-    ->expected(1);
+    ->check(knownWords({ "auto", "opengl", "software" }));
 }
 } // namespace
 
@@ -124,6 +118,7 @@ void DrawingOptions::declare(CLI::App& app)
     ->check(numberBetween(0.01, 1000.0))
     ->type_name("PX");
   app.add_option("--point-budget", pointBudget, "Most points drawn at a time")
+    ->transform(wholeNumber())
     ->check(CLI::Range(std::int64_t(1), std::int64_t(1) << 40))
     ->type_name("N");
   addByteSize(app, "--gpu-memory", gpuBytes,

@@ -6,6 +6,7 @@
 #include "KnownWords.h"
 #include "PeakMemory.h"
 #include "StoreCompany.h"
+#include "Values.h"
 #include "WholeFile.h"
 
 #include <nlohmann/json.hpp>
@@ -40,6 +41,7 @@ void RenderCommand::declare(CLI::App& program)
   CLI::Option* const complete = app_->add_flag(
     "--complete", "Wait for all that the error and the budgets allow (this is the default)");
   app_->add_option("--frames", frames_, "Instead: what a user sees after N frames")
+    ->transform(wholeNumber())
     ->check(CLI::Range(1, 1000000))
     ->type_name("N")
     ->excludes(complete);

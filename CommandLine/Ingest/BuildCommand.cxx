@@ -35,6 +35,7 @@ void BuildCommand::declare(CLI::App& program)
       "One tree for all points, or for each class (class if any point is classified)")
     ->check(knownWords({ "none", "class" }));
   app_->add_option("--node-points", options_.nodePoints, "Most points of a leaf (16384)")
+    ->transform(wholeNumber())
     ->check(CLI::Range(256u, 1u << 20))
     ->type_name("N");
   app_

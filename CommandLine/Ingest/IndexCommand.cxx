@@ -55,6 +55,7 @@ void IndexCommand::declare(CLI::App& program)
       "-o,--output", sidePath_, std::string("The side file (IN.las") + lasIndexSuffix + ")")
     ->type_name("SIDE");
   app_->add_option("--node-points", options_.leafPoints, "Most points of a leaf (16384)")
+    ->transform(wholeNumber())
     ->check(CLI::Range(256u, 1u << 20))
     ->type_name("N");
   app_

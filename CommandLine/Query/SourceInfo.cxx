@@ -216,7 +216,7 @@ std::string sourceText(const SourceInfo& info)
   }
   text << "\n  crs         "
        << (!source.crsWkt.empty()            ? systemName(source.crsWkt)
-              : hasProjectionRecords(source) ? "GeoTIFF keys"
+              : hasProjectionRecords(source) ? systemName(GeoKeys::parse(source.metadata))
                                              : "not known")
        << "\n  file        " << byteSizeText(info.fileBytes) << " (" << info.fileBytes
        << " bytes)\n  attributes  " << attributesText(source.schema);

@@ -1,6 +1,7 @@
 #include "SystemName.h"
 
 #include <cctype>
+#include <cstdint>
 #include <optional>
 #include <vector>
 
@@ -137,6 +138,26 @@ std::string systemName(const std::string& wkt)
   const std::string code = codeOf(*system);
   const std::string& name = system->words.front();
   return code.empty() ? name : name.empty() ? code : code + " (" + name + ")";
+}
+
+std::string systemName(const GeoKeys& keys)
+{
+  const auto named = [&keys](GeoKeys::Key key)
+  {
+    const std::uint16_t code = keys.code(key).value_or(0);
+    return code != 0 && code != GeoKeys::userDefined ? "EPSG:" + std::to_string(code) : "";
+  };
+  const bool projected = keys.code(GeoKeys::ProjectedSystem).has_value();
+  std::string codes = named(projected ? GeoKeys::ProjectedSystem : GeoKeys::GeodeticSystem);
+  const std::string heights = named(GeoKeys::VerticalSystem);
+  codes += codes.empty() || heights.empty() ? "" : " + " + heights;
+  const std::string own = keys.text(GeoKeys::ProjectedCitation);
+  const std::string name = own.empty() ? keys.text(GeoKeys::Citation) : own;
+  if (codes.empty())
+  {
+    return name.empty() ? "GeoTIFF keys without a code" : name + " (GeoTIFF keys without a code)";
+  }
+  return name.empty() ? codes : codes + " (" + name + ")";
 }
 
 } // namespace pointfront

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Reference/GeoKeys.h"
+
 #include <string>
 
 namespace pointfront
@@ -9,5 +11,9 @@ namespace pointfront
 /// "EPSG:2154 (RGF93 / Lambert-93)"; of a compound one without a code "EPSG:2154 + EPSG:5720
 /// (...)". Without any code its name; text that is no WKT as it is.
 std::string systemName(const std::string& wkt);
+
+/// The same of a LAS file's GeoTIFF keys, as far as these say it: the codes as they stand there,
+/// and the citation.
+std::string systemName(const GeoKeys& keys);
 
 } // namespace pointfront

@@ -71,6 +71,8 @@ TEST(Values, CountsMayBeWrittenWithAnExponent)
   {
     EXPECT_EQ(counted(text), "refused") << text;
   }
+  std::string shortened = "2M"; // a size in bytes would be 2^21
+  EXPECT_EQ(wholeNumber()(shortened), "'2M' is not a count: write 2e6");
 }
 
 } // namespace pointfront

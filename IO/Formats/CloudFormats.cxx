@@ -8,14 +8,18 @@
 #include "NormalsOnLoad.h"
 
 #ifdef POINTFRONT_REMOTE
+#include "Address.h"
 #include "Credentials.h"
 #include "RemoteOpener.h"
 #endif
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
+#include <cstdlib>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -41,6 +45,21 @@ Result<void> learnCredentialsOfServers([[maybe_unused]] const std::string& text)
   return makeError(Error::Kind::Unsupported,
     "this build opens files only (POINTFRONT_REMOTE=OFF): it has no use for headers and tokens");
 #endif
+}
+
+std::string credentialsForChild([[maybe_unused]] const std::vector<std::string>& words)
+{
+  const char* const given = std::getenv("POINTFRONT_FAR");
+  std::string text = given != nullptr ? given : "";
+#ifdef POINTFRONT_REMOTE
+  for (const std::string& word : words)
+  {
+    const std::size_t query = isAddress(word) ? word.find("?~") : std::string::npos;
+    const std::string whole = query != std::string::npos ? addressOf(word) : word;
+    text += whole != word ? "\n" + word.substr(query + 1) + ' ' + whole : "";
+  }
+#endif
+  return text;
 }
 
 } // namespace pointfront

@@ -3,6 +3,7 @@
 #include "pointfront/Base/Result.h"
 
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -16,5 +17,9 @@ void addCloudFormats();
 /// marks, as in the environment's POINTFRONT_FAR (docs/user/remote.md). Errors  BadArgument;
 /// Unsupported: the build opens files only.
 Result<void> learnCredentialsOfServers(const std::string& text);
+
+/// The text of POINTFRONT_FAR for a child that gets these words on its command line, public forms
+/// of addresses among them: what is in this process's own environment, and the whole addresses.
+std::string credentialsForChild(const std::vector<std::string>& words);
 
 } // namespace pointfront

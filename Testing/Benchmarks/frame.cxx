@@ -4,7 +4,7 @@
 //   all points in memory, drawn by vtkPolyDataMapper (in the store's order, which is a Morton order
 //   inside each node),
 //   all points, drawn by vtkPointFrontMapper (an error small enough),
-//   vtkPointFrontMapper at its default error of 1 px.
+//   vtkPointFrontMapper at its default error, points at most 1 pixel apart.
 // The three take turns, round by round, while the camera goes around the cloud. JSON on stdout.
 
 #include "BenchmarkCloud.h"

@@ -8,9 +8,9 @@ Prints two Markdown tables. STORE has normals (build --normals pca) and rgb.
 1. Milliseconds a frame (median of an orbit) with so many points, every one of them drawn. Rows of
    VTK draw as many random points of the store from memory, from the same cameras: 1-px points by
    vtkPolyDataMapper, opaque discs of 0.85 spacings by vtkPointGaussianMapper (LAYERS figure 8).
-2. Far (an orbit) and near (a flight) at an error of 1 px, with a third of the memory that all
-   points take: median and 95 % of the frames, and how many points the median frame has (LAYERS
-   table 2).
+2. Far (an orbit) and near (a flight) with points at most 1 pixel apart, with a third of the memory
+   that all points take: median and 95 % of the frames, and how many points the median frame has
+   (LAYERS table 2).
 """
 
 import argparse

@@ -73,6 +73,8 @@ class Usage(ToolTest):
                 ("splats", (*render, "--technique", "slpats")),
                 ("balanced", (*render, "--quality", "balnced")),
                 ("top", (*render, "--view", "tpo")),
+                ("software", (*render, "--backend", "sofware")),
+                ("orbit", ("bench", store, "--stats", self.folder / "s", "--path", "orbti")),
                 ("octree", ("build", SMALL, "-o", self.folder / "b", "--structure", "octre")),
                 ("intensity", (*render, "--color-by", "intensty")),
                 ("elevation", (*render, "--color-by", "elevatoin")),
@@ -84,6 +86,20 @@ class Usage(ToolTest):
                 self.assertTrue(self.refusal(*arguments).endswith(f"; did you mean '{meant}'?"),
                                 self.refusal(*arguments))
         self.assertNotIn("did you mean", self.refusal(*render, "--technique", "dots"))
+
+    def test_counts_may_be_written_with_an_exponent(self):
+        las, store, picture = (self.folder / name for name in ("a.las", "a.pfront", "a.png"))
+        self.succeed("generate", "--points", "2e3", "-o", las)
+        report = self.succeed("build", las, "-o", store, "--node-points", "1e3", "--json").json
+        self.assertEqual(report["points_stored"], 2000)
+        self.succeed("index", las, "--node-points", "1e3")
+        self.succeed("render", store, "-o", picture, "--point-budget", "1e6", "--frames", "1e1")
+        stats = self.folder / "s.json"
+        self.succeed("bench", store, "--frames", "1e1", "--stats", stats, "--point-budget", "1e6")
+        self.assertEqual(json.loads(stats.read_text())["frames"], 10)
+        for arguments in (("generate", "-o", self.folder / "b.las", "--points"),
+                          ("render", store, "-o", picture, "--point-budget")):
+            self.assertIn("write 2e6", self.refuse(2, *arguments, "2M").err)
 
     def test_faults_in_json_have_file_line_and_reason(self):
         store = self.folder / "a.pfront"
@@ -258,6 +274,19 @@ class Failures(ToolTest):
             outcome = self.refuse(1, *words)
             self.assertIn(str(words[1]), outcome.err)
         self.assertEqual(self.entries(), [])
+
+    def test_an_empty_folder_says_what_was_looked_for(self):
+        (self.folder / "none").mkdir()
+        (self.folder / "none/notes.md").write_text("no points")
+        folder, output = self.folder / "none", self.folder / "a.las"
+        for command, *rest in (("build", "-o", self.folder / "a.pfront"), ("info",), ("verify",),
+                               ("index",), ("export", "-o", output),
+                               ("render", "-o", self.folder / "a.png"), ("stream",),
+                               ("bench", "--stats", self.folder / "s.json")):
+            said = self.refuse(1, command, folder, *rest).err
+            self.assertIn(str(folder), said)
+            self.assertRegex(said, "names were looked for that end in [.]")
+        self.assertEqual(self.entries(), ["none"])
 
     def test_output_that_cannot_be_written(self):
         store = self.build(SMALL)

@@ -12,7 +12,7 @@ from .pointfrontIOStore import *
 from .pointfrontRenderingCore import *
 from .pointfrontRenderingOpenGL2 import *
 
-_Path = Union[str, PathLike[str]]
+_Path = Union[str, bytes, PathLike[str], PathLike[bytes]]
 _Point = Tuple[float, float, float]
 _Box = Union[Tuple[_Point, _Point], Sequence[float]]
 _Progress = Union[None, bool, Callable[[str, float], Optional[bool]]]

@@ -35,9 +35,10 @@ class BuildReport:
 
 
 def _paths(names):
-    if isinstance(names, (str, os.PathLike)):
+    """Texts of one path, or of several: str, bytes (as os.fsencode gives them), os.PathLike."""
+    if isinstance(names, (str, bytes, os.PathLike)):
         names = [names]
-    return [os.fspath(name) for name in names]
+    return [os.fsdecode(name) for name in names]
 
 
 def _texts(names):
@@ -68,12 +69,12 @@ def _depth(bits):
 # Options that pointfront.build() takes besides its named arguments, and what makes a value plain.
 _OPTIONS = {
     "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool, "memory_limit": _count,
-    "number_of_threads": _count, "temporary_folder": os.fspath, "node_points": _count,
-    "precision": float, "color_depth": _depth, "crs": os.fspath, "assumed_crs": os.fspath,
+    "number_of_threads": _count, "temporary_folder": os.fsdecode, "node_points": _count,
+    "precision": float, "color_depth": _depth, "crs": os.fsdecode, "assumed_crs": os.fsdecode,
     "normals_neighbors": _count, "normals_radius": float, "normals_error": float,
     "normals_classes": _class_numbers, "curvature": bool, "splat_radius": bool,
     "local_height": bool, "local_height_radius": float, "height_above_ground": bool,
-    "ground_cell": float, "attribute_from": _texts, "preview": bool, "preview_points": _count}
+    "ground_cell": float, "attribute_from": _paths, "preview": bool, "preview_points": _count}
 
 
 def _plain(options):
@@ -101,7 +102,7 @@ def _chosen(what, name):
 
 def build(inputs, output, *, structure="octree", refinement="add", layers="auto", normals="none",
           attributes=None, color_from=(), progress=None, **options):
-    """Build a store from point files and stores.
+    """Build a store from point files and stores. A path is a str, bytes or an os.PathLike.
 
     inputs      a path, or several: LAS, LAZ, PLY, PCD, text, ept.json, .pfront, .pfindex, folders
                 of them; or points: {"position": n by 3, "intensity": n, ...}, as Cloud.points()
@@ -127,7 +128,7 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     PointFrontError; ValueError and TypeError for arrays that are no points; KeyboardInterrupt at
     once when the user interrupts. Nothing is left behind then. Other threads run meanwhile.
     """
-    path = os.fspath(output)
+    path = os.fsdecode(output)
     request = {"output": path, "structure": _chosen("structure", structure),
                "refinement": _chosen("refinement", refinement),
                "layers": _chosen("layers", layers), "normals": _chosen("normals", normals),
@@ -154,8 +155,8 @@ def index(las, side=None, *, overwrite=False, node_points=16384):
 
     Raises PointFrontError; KeyboardInterrupt at once. Other threads run meanwhile.
     """
-    path = os.fspath(las)
-    target = os.fspath(side) if side is not None else path + ".pfindex"
+    path = os.fsdecode(las)
+    target = os.fsdecode(side) if side is not None else path + ".pfindex"
     warn(f"{path}: {text}" for text in
          _kernel.index(path, target, overwrite, _count(node_points))["warnings"])
     return target

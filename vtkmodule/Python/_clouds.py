@@ -29,14 +29,14 @@ class Cloud:
 
     def __init__(self, path):
         self._store = None
-        given = os.fspath(path)
+        given = os.fsdecode(path)
         self._path = given
         self._store = _kernel.StoredCloud(given)
         # As JSON tells it, it has lost what is no UTF-8; it is another for a preview that is gone.
         self._path = (os.path.realpath(given) if os.path.exists(given)
                       else self._store.description["path"])
         if _far.is_address(given):
-            _far.remember(given, self._path)
+            self._path = _far.named(given, self._path)
         self._warnings = [f"{self._path}: {text}" for text in self._store.description["warnings"]]
         warn(self._warnings)
 
@@ -148,12 +148,13 @@ class Cloud:
                  of what is being read), colors_as_stored; those of extract() that are objects of
                  VTK, frustum and point_ids among them, where a VTK is installed
 
-        "position" n by 3, float64, in the store's coordinates; "id" n, int64: the rank in the
+        "position" n by 3, float64, in the store's coordinates; "id" n, int64: the number in the
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
         "rgb" is as it is stored, too, of 16 bits where the store has 16; colors_as_stored=False
         gives bytes, as extract() and to_pyvista() do: the upper ones if any value has 16 bits.
         The cloud's own attributes "position" and "id" are "position_" and "id_".
         Nothing is copied: an array is the memory that the kernel read the points into.
+        A region that lies beside the cloud is a PointFrontWarning.
         """
         conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
         return self._arrays(conditions, progress, options)
@@ -203,11 +204,11 @@ class Cloud:
         self._opened()
         conditions = Conditions(self, box, sphere, None, classes, where, spacing, None)
         chosen = {**conditions.options(), "crs": crs, "force": overwrite, **options}
-        return _pictures.export(self._path, os.fspath(path), chosen, self._warnings)
+        return _pictures.export(self._path, os.fsdecode(path), chosen, self._warnings)
 
     def to_pyvista(self, **query):
         """Points of a region as pyvista.PolyData, of whichever VTK PyVista runs on; `query` as for
-        points(). Ranks are called "point_id", colours are bytes.
+        points(). Numbers are called "point_id", colours are bytes.
         """
         from ._meshes import mesh_of
 

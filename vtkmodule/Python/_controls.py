@@ -106,18 +106,29 @@ def _number(value):
     return f"{value:.6g}" if isinstance(value, float) else str(value)
 
 
-def legend_state(legend):
-    """Returns the page's legend from what `stream` says; None: no legend, as for rgb."""
+def legend_state(legend, classes):
+    """Returns the page's legend from what `stream` says; None: no legend, as for rgb.
+
+    classes  the page's Classes, whose switches show the colours of classes if there are any
+    """
     if not legend:
         return None
     if legend["attribute"] == "classification":
-        return None  # the switches have the colours
+        named = classes.named(legend)
+        return {"attribute": "classification", "values": named} if named else None
     if "values" in legend:
         return {"attribute": legend["attribute"],
                 "values": [[_number(value), colour] for value, colour in legend["values"]]}
     low, high = legend["range"]
     return {"attribute": legend["attribute"], "low": _number(low), "high": _number(high),
             "ramp": f"linear-gradient(to right, {', '.join(legend['colours'])})"}
+
+
+def _colours_of_classes(legend):
+    """{code: colour}; none where points are coloured by something else."""
+    if not legend or legend["attribute"] != "classification":
+        return {}
+    return {int(value): colour for value, colour in legend.get("values", ())}
 
 
 class Classes:
@@ -138,13 +149,20 @@ class Classes:
         self._hidden = hidden
         return True
 
+    def _has_switches(self):
+        return len(self._names) > 1
+
+    def named(self, legend):
+        """Returns ["code name", colour] of a class that is alone and has no switch."""
+        colours = _colours_of_classes(legend)
+        return [[f"{code} {name}", colours[code]] for code, name in self._names.items()
+                if code in colours and not self._has_switches()]
+
     def state(self, legend):
         """Returns the switches that the page shows; none where there is one class."""
-        if len(self._names) < 2:
+        if not self._has_switches():
             return []
-        colours = {}
-        if legend and legend["attribute"] == "classification":
-            colours = {int(value): colour for value, colour in legend.get("values", ())}
+        colours = _colours_of_classes(legend)
         shown = set(self._names) - self._hidden
         return [{"code": code, "name": name, "shown": code in shown, "last": shown == {code},
                  "colour": colours.get(code)} for code, name in self._names.items()]

@@ -37,10 +37,25 @@ def use_headers(address, headers, token=None):
     _headers[origin] = lines
 
 
-def remember(address, public_form):
-    """Under which the tool gets it. What is not secret needs nobody to remember it."""
-    if "?~" in public_form and "?~" not in address:
+def named(address, public_form):
+    """Returns the name under which the tool gets it. What is not secret needs nobody to remember
+    it, nor does a public form that whoever started this process gave to it and to its tools.
+    """
+    if "?~" in address:
+        return address
+    if "?~" in public_form:
         _addresses[public_form] = address
+    return public_form
+
+
+def hide_secrets():
+    """Starts this process's program anew if its command line names addresses with secrets, which
+    everybody on the machine could read as long as it runs: now the environment has them.
+    """
+    words = [named(word, _kernel.public_form(word)) if is_address(word) else word
+             for word in sys.orig_argv]
+    if any(word in _addresses for word in words):
+        os.execve(sys.executable, words, environment(words))
 
 
 def told_to_child(path):

@@ -8,7 +8,7 @@ import threading
 
 import numpy
 
-from ._errors import PointFrontError
+from ._errors import PointFrontError, warn
 from ._progress import receiving
 
 _BYTES = ctypes.c_char_p
@@ -44,6 +44,7 @@ def _loaded():
     for name, arguments in (
             ("Open", [_BYTES, ctypes.POINTER(pointer), _DOUBLES, PROGRESS]),
             ("Credentials", [_BYTES]),
+            ("PublicForm", [_BYTES]),
             ("Points", [pointer, ctypes.POINTER(Query), PROGRESS]),
             ("Build", [_BYTES, ctypes.POINTER(_Array), ctypes.c_size_t, ctypes.c_uint64, PROGRESS]),
             ("Index", [_BYTES, _BYTES, ctypes.c_int, ctypes.c_uint32, PROGRESS]),
@@ -160,7 +161,9 @@ class _Memory:
 
 
 def _arrays(answer):
-    """(name, array) of each column; in the thread that got it, which no interrupt ends."""
+    """(name, array) of each column, and the warnings; in the thread that got it, which no interrupt
+    ends.
+    """
     points = answer["points"]
     made = []
     for column in answer["columns"]:
@@ -168,12 +171,17 @@ def _arrays(answer):
         shape = (points,) if count == 1 else (points, count)
         memory = _Memory(column["address"], shape, numpy.dtype(column["type"]))
         made.append((column["name"], numpy.asarray(memory)))
-    return made
+    return made, answer["warnings"]
 
 
 def learn_credentials(text):
     """The text of POINTFRONT_FAR, for this process."""
     _answer(_library.pointfrontCredentials(text.encode()))
+
+
+def public_form(address):
+    """The address without what is secret, under which this process knows it from now on."""
+    return _answer(_library.pointfrontPublicForm(os.fsencode(address)))
 
 
 class StoredCloud:
@@ -200,13 +208,17 @@ class StoredCloud:
         self.bounds = tuple(bounds)
 
     def points(self, query, progress):
-        """(name, array) of each column: the places, called "", the ranks, the attributes."""
+        """(name, array) of each column: the places, called "", the ids, the attributes. What the
+        query cannot have is a PointFrontWarning.
+        """
         if os.getpid() != self._process:
             self._open()
-        return call(
+        arrays, warnings = call(
             lambda report: _arrays(_answer(
                 _library.pointfrontPoints(self._handle, ctypes.byref(query), report))),
             progress, f"{os.fsdecode(self._path)}: the query was stopped")
+        warn(f"{self.description['path']}: {text}" for text in warnings)
+        return arrays
 
     def __del__(self):
         if getattr(self, "_handle", None) and os.getpid() == self._process:
@@ -224,7 +236,7 @@ def build(request, arrays, progress):
                          1 if column.ndim == 1 else column.shape[1])
                   for name, column in columns.items()]
     text = json.dumps(request, allow_nan=False, ensure_ascii=False)
-    text = text.encode(errors="surrogateescape")
+    text = text.encode(errors="surrogateescape").decode("latin-1").encode()  # paths are bytes
     return call(
         lambda report: _answer(_library.pointfrontBuild(
             text, (_Array * len(given))(*given), len(given), points, report)),

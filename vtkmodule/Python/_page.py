@@ -200,7 +200,7 @@ class CloudPage:
 
     def _show_choices(self):
         state = self.server.state
-        state.legend = legend_state(self._legend)
+        state.legend = legend_state(self._legend, self._classes)
         state.classes = self._classes.state(self._legend)
 
     def _take_up(self, tool, **_):

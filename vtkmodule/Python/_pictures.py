@@ -32,7 +32,7 @@ class Picture:
 
     def save(self, path):
         """Write the PNG file."""
-        pathlib.Path(path).write_bytes(self.png)
+        pathlib.Path(os.fsdecode(path)).write_bytes(self.png)
 
     @property
     def pixels(self):
@@ -116,13 +116,15 @@ def export(path, output, options, known=()):
     printed = run_tool(["export", path, "-o", output, "--progress", "none", *_flags(options)],
                        said.append)
     _warn_of(said, known)
-    return int(re.search(r": ([0-9]+) points", printed.decode()).group(1))
+    return int(re.findall(r": ([0-9]+) points", printed.decode(errors="replace"))[-1])
 
 
 def _flags(options, folder=None):
     """Returns the words of the command line; a dictionary becomes a JSON file in `folder`."""
     words = []
     for name, value in options.items():
+        if isinstance(value, (numpy.ndarray, numpy.generic)):
+            value = value.tolist()
         if value is None or value is False:
             continue
         flag = "--" + name.replace("_", "-")
@@ -130,7 +132,7 @@ def _flags(options, folder=None):
             words.append(flag)
         elif isinstance(value, dict) and folder is not None:
             file = pathlib.Path(folder) / f"{name}.json"
-            file.write_text(json.dumps(value, default=_plain))
+            file.write_text(json.dumps(_plain(value)))
             words += [flag, file]
         elif isinstance(value, (tuple, list)):
             words += [flag, ",".join(map(_word, value))]
@@ -140,12 +142,20 @@ def _flags(options, folder=None):
 
 
 def _plain(value):
-    """NumPy's numbers and arrays, for JSON."""
-    return value.tolist()
+    """For JSON: numbers and arrays of NumPy, as keys, too, and paths become Python's."""
+    if isinstance(value, dict):
+        return {_plain(key): _plain(held) for key, held in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [_plain(held) for held in value]
+    if isinstance(value, (numpy.ndarray, numpy.generic)):
+        return value.tolist()
+    return os.fsdecode(value) if isinstance(value, (bytes, os.PathLike)) else value
 
 
 def _word(value):
-    """A floating number with all its digits, NumPy's, too."""
+    """A path as a text; a floating number with all its digits, NumPy's, too."""
+    if isinstance(value, (bytes, os.PathLike)):
+        return os.fsdecode(value)
     return repr(float(value)) if isinstance(value, (float, numpy.floating)) else str(value)
 
 

@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 
+from . import _far
 from ._errors import PointFrontError
 
 # Options of `pointfront render`, and what argparse shows for their values.
@@ -59,6 +60,7 @@ def end_by_signals():
 def main(arguments):
     """Serves until it is interrupted; the exit status."""
     chosen = parser().parse_args(arguments)
+    _far.hide_secrets()
     sys.argv = sys.argv[:1]  # trame reads it, too
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     os.environ.setdefault("WSLINK_WS_COMPRESS", "0")  # JPEG does not become smaller

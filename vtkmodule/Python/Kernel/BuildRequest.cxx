@@ -10,6 +10,37 @@ namespace pointfront
 namespace
 {
 
+/// The bytes that a text's code points are, U+0000 to U+00FF.
+std::string bytesOf(const std::string& text)
+{
+  std::string bytes;
+  for (std::size_t i = 0; i < text.size(); ++i)
+  {
+    const auto first = static_cast<unsigned char>(text[i]);
+    const bool pair = first >= 0xc0 && i + 1 < text.size();
+    const unsigned next = pair ? static_cast<unsigned char>(text[++i]) & 0x3fU : 0U;
+    bytes += static_cast<char>(pair ? ((first & 0x03U) << 6U) | next : first);
+  }
+  return bytes;
+}
+
+nlohmann::json withBytes(const nlohmann::json& value)
+{
+  if (value.is_string())
+  {
+    return bytesOf(value.get<std::string>());
+  }
+  nlohmann::json made = value;
+  if (value.is_structured())
+  {
+    for (auto item = made.begin(); item != made.end(); ++item)
+    {
+      *item = withBytes(*item);
+    }
+  }
+  return made;
+}
+
 /// The value of that name; a type of JSON that is another one throws.
 template <typename T>
 T valueOf(const nlohmann::json& request, const char* name, const T& otherwise)
@@ -81,8 +112,9 @@ PassChoice passesOf(const nlohmann::json& request)
 
 } // namespace
 
-BuildOrder buildOrderOf(const nlohmann::json& request)
+BuildOrder buildOrderOf(const char* text)
 {
+  const nlohmann::json request = withBytes(nlohmann::json::parse(text));
   BuildOrder order;
   order.files = valueOf(request, "files", order.files);
   std::sort(order.files.begin(), order.files.end());

@@ -10,6 +10,7 @@
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Query/BoxRegion.h"
+#include "pointfront/Query/MissedRegion.h"
 #include "pointfront/Query/QueryPlan.h"
 #include "pointfront/Query/SphereRegion.h"
 #include "pointfront/Query/TextRegion.h"
@@ -265,6 +266,16 @@ char* pointfrontCredentials(const char* text)
     });
 }
 
+char* pointfrontPublicForm(const char* address)
+{
+  return answer(
+    [&]() -> Result<Json>
+    {
+      pointfront::addCloudFormats();
+      return Json(pointfront::publicForm(address));
+    });
+}
+
 char* pointfrontOpen(
   const char* path, PointFrontCloud** cloud, double bounds[6], PointFrontProgress progress)
 {
@@ -330,7 +341,13 @@ char* pointfrontPoints(
         return report.error();
       }
       const std::uint64_t count = points.points();
-      return Json{ { "points", count }, { "columns", columnsOf(points) } };
+      Json warnings = Json::array();
+      if (const auto missed = pointfront::missedRegion(cloud->store->description(), *query))
+      {
+        asked->piece == 0 ? warnings.push_back(*missed) : void();
+      }
+      return Json{ { "points", count }, { "columns", columnsOf(points) },
+        { "warnings", warnings } };
     });
 }
 
@@ -341,7 +358,7 @@ char* pointfrontBuild(const char* request, const PointFrontArray* arrays, std::s
     [&]() -> Result<Json>
     {
       pointfront::addCloudFormats();
-      pointfront::BuildOrder order = pointfront::buildOrderOf(Json::parse(request));
+      pointfront::BuildOrder order = pointfront::buildOrderOf(request);
       std::unique_ptr<pointfront::PointSource> source;
       if (arrayCount > 0)
       {

@@ -50,6 +50,8 @@ extern "C"
   /// Answers the names of classes 0 to 255, "ground" ...
   char* pointfrontClassNames();
 
+  /// A text: an address without what is secret in it, which this process opens as the address.
+  char* pointfrontPublicForm(const char* address);
   /// Headers for servers, and addresses by their marks: the text of POINTFRONT_FAR
   /// (docs/user/remote.md). Answers null of JSON.
   char* pointfrontCredentials(const char* text);
@@ -64,11 +66,12 @@ extern "C"
 
   /// Answers "points" and "columns": {"name", "type", "components", "address"} each, of memory that
   /// the caller gives to pointfrontFree(). The places have the name "", the numbers in the store
-  /// are called "id".
+  /// are called "id". "warnings" are sentences; of several pieces the first has them.
   char* pointfrontPoints(
     const PointFrontCloud* cloud, const PointFrontQuery* query, PointFrontProgress progress);
 
-  /// `request`  JSON of the keys in BuildRequest.cxx.
+  /// `request`  JSON of the keys in BuildRequest.cxx; each byte of its texts is a code point, so
+  ///            that paths need not be UTF-8.
   /// `arrays`   instead of its "files": `points` points; the first array is their places.
   char* pointfrontBuild(const char* request, const PointFrontArray* arrays, std::size_t arrayCount,
     std::uint64_t points, PointFrontProgress progress);

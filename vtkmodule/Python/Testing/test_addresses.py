@@ -8,6 +8,7 @@ import pickle
 import shutil
 import signal
 import socket
+import subprocess
 import sys
 import tempfile
 import threading
@@ -23,6 +24,7 @@ import numpy
 import pointfront
 from far_server import FarServer
 from far_weather import TOKEN
+from pointfront._host import TOOL
 from pointfront._stream import FrameStream
 
 
@@ -73,6 +75,41 @@ class Addresses(unittest.TestCase):
         with urllib.request.urlopen(f"{self.origin}/~log") as log:
             asked = [one["path"] for one in json.load(log)["requests"]]
         self.assertTrue(asked and all(path.endswith(SECRET) for path in asked))
+
+    def test_a_page_is_served_by_nothing_that_others_see(self):
+        """By Python and by the tool, which starts it; with a trame that waits when it is loaded."""
+        (self.folder / "trame").mkdir()
+        (self.folder / "trame/__init__.py").write_text(
+            "import time\nprint('loaded', flush=True)\ntime.sleep(60)\n")
+        address = f"{self.origin}/~bearer/a.pfront?{SECRET}"
+        there = {**os.environ, "POINTFRONT_PYTHON": sys.executable, "POINTFRONT_FAR":
+                 f"[{self.origin}]\nAuthorization: Bearer {TOKEN}", "PYTHONPATH":
+                 f"{self.folder}{os.pathsep}{os.environ.get('PYTHONPATH', '')}"}
+        for command in ([sys.executable, "-m", "pointfront"], [TOOL]):
+            page = subprocess.Popen([*command, "serve", "--port", "0", address],
+                                    stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=there)
+            self.addCleanup(page.wait)
+            self.addCleanup(page.kill)
+            with page.stdout, page.stderr:
+                self.assertEqual(page.stdout.readline(), b"loaded\n", page.poll())
+                words = pathlib.Path(f"/proc/{page.pid}/cmdline").read_text()
+                told = pathlib.Path(f"/proc/{page.pid}/environ").read_text()
+                page.kill()
+            self.assertIn("/~bearer/a.pfront?~", words)
+            self.assertIn("serve\0--port\x000\0", words)
+            for secret in ("VERY-SECRET", TOKEN):
+                self.assertNotIn(secret, words)
+                self.assertIn(secret, told)
+            # Others find it by the same words and environment, as the tool that draws does.
+            variable = next(one for one in told.split("\0") if one.startswith("POINTFRONT_FAR="))
+            given = next(word for word in words.split("\0") if "://" in word)
+            info = subprocess.run(
+                [sys.executable, "-c", "import pointfront, sys\nc = pointfront.open(sys.argv[1])\n"
+                 "print(c.info['points'], len(c.points()['id']), c.screenshot(size=(9, 9)))",
+                 given],
+                stdout=subprocess.PIPE, check=True,
+                env={**os.environ, "POINTFRONT_FAR": variable.split("=", 1)[1]})
+            self.assertRegex(info.stdout, b"^174151 174151 <Picture 9x9")
 
     def test_a_spawned_child_opens_it_by_what_its_parent_knows(self):
         cloud = pointfront.open(f"{self.origin}/~bearer/a.pfront?{SECRET}", token=TOKEN)

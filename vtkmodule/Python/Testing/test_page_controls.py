@@ -170,6 +170,9 @@ class Controls(InBrowser):
         self.assertIn("linear-gradient", ramp)
         self.change(page, lambda: page.select_option("select >> nth=0", "rgb"))
         self.assertEqual(page.locator(".pointfront-legend").count(), 0)
+        self.change(page, lambda: page.select_option("select >> nth=0", "classification"))
+        self.assertIn("0 never classified", page.inner_text(".pointfront-legend"))  # all points
+        self.assertEqual(page.locator(".pointfront-classes").count(), 0)
         self.assertEqual(self.errors, [])
         server.end()
 

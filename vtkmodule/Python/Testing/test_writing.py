@@ -1,6 +1,7 @@
 """Points out of NumPy and back, in chunks and as files; clouds in notebooks and other processes."""
 
 import multiprocessing
+import os
 import pathlib
 import pickle
 import shutil
@@ -219,6 +220,74 @@ class Writing(unittest.TestCase):
             warnings.simplefilter("ignore")
             report = pointfront.build(folder, self.folder / "folder.pfront", preview=False)
         self.assertEqual(report.points_stored, 2 * len(self.cloud))
+
+    def test_paths_are_texts_bytes_and_path_objects(self):
+        """Wherever a path is taken; one that is no UTF-8 as well."""
+        plain, odd = self.folder / "paths", self.folder / os.fsdecode(b"no \xff utf-8")
+        for folder in (plain, odd):
+            folder.mkdir()
+            for kind in (str, pathlib.Path, os.fsencode):
+                with self.subTest(folder=folder.name, kind=kind.__name__):
+                    def at(name):
+                        return kind(str(folder / name))
+
+                    points, store = at("a.laz"), at("a.pfront")
+                    shutil.copyfile(CLOUD, points)
+                    with warnings.catch_warnings():
+                        warnings.simplefilter("ignore")
+                        for inputs in (points, [points]):
+                            report = pointfront.build(
+                                inputs, store, overwrite=True, preview=False,
+                                temporary_folder=kind(str(folder)))
+                            self.assertEqual(report.points_stored, len(self.cloud))
+                        self.assertEqual(report.path, str(folder / "a.pfront"))
+                        cloud = pointfront.open(store)
+                        self.assertEqual(cloud.path, os.path.realpath(folder / "a.pfront"))
+                        self.assertEqual(len(cloud.points(attributes=[])["id"]), len(self.cloud))
+                        cloud.export(at("b.las"), overwrite=True)
+                        side = pointfront.index(at("b.las"), at("b.pfindex"), overwrite=True)
+                    self.assertEqual(len(pointfront.open(os.fsencode(side))), len(self.cloud))
+                    (folder / "red.json").write_text('{"default": {"color": "#ff0000"}}')
+                    picture = cloud.screenshot(at("a.png"), size=(64, 48), style=at("red.json"))
+                    picture.save(at("b.png"))
+                    self.assertEqual((folder / "a.png").read_bytes(), picture.png)
+                    self.assertEqual((folder / "b.png").read_bytes(), picture.png)
+        for wrong in (3, [b"a.laz", 3], None):
+            with self.assertRaises(TypeError):
+                pointfront.build(wrong, self.folder / "wrong.pfront")
+
+    def test_numbers_may_be_numpys(self):
+        """Integers, truths, floating numbers and arrays: the same as Python's."""
+        kinds = [(int, bool, float, list)] + [
+            (whole, numpy.bool_, numpy.float32, lambda numbers, whole=whole: numpy.array(
+                numbers, whole)) for whole in (numpy.int64, numpy.uint8)]
+        random = numpy.random.default_rng(1)
+        points = {"position": random.uniform(0, 100, (2000, 3)),
+                  "classification": numpy.zeros(2000, "u1")}
+        outcomes = []
+        for number, truth, real, array in kinds:
+            with warnings.catch_warnings():
+                warnings.simplefilter("ignore")
+                report = pointfront.build(
+                    points, self.folder / "numbers.pfront", overwrite=truth(True),
+                    preview=truth(False), number_of_threads=number(2), color_depth=number(8),
+                    normals="pca", normals_neighbors=number(9), precision=real(0.5),
+                    normals_classes=array([0]))
+                picture = self.cloud.screenshot(
+                    size=(number(96), number(64)), point_size=number(3), edl=truth(True),
+                    classes=array([0]), background=array([1, 2, 3]), point_budget=number(100),
+                    error=real(2.0), style={
+                        "default": {"size": {"mode": "fixed", "px": number(4)}},
+                        "classes": {number(6): {"visible": truth(False)}}})
+            sizes = [len(chunk["id"]) for chunk in self.cloud.chunks(
+                number(100), classes=number(0), spacing=real(100.0))]
+            self.assertEqual(set(sizes[:-1]), {100})
+            all_of_class = self.cloud.points(
+                classes=number(0), attributes=[], memory_limit=number(0),
+                maximum_number_of_points=numpy.int64(10**7) if number is not int else 10**7)
+            outcomes.append((vars(report), picture.png, sizes, len(all_of_class["id"])))
+        for outcome in outcomes[1:]:
+            self.assertEqual(outcome, outcomes[0])
 
     def test_dictionaries_are_styles_and_cameras(self):
         low, high = map(numpy.array, self.cloud.bounds)

@@ -1,12 +1,15 @@
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/ConvexRegion.h"
 #include "pointfront/Query/LineCorridor.h"
+#include "pointfront/Query/MissedRegion.h"
 #include "pointfront/Query/Orientation.h"
 #include "pointfront/Query/PolygonPrism.h"
 #include "pointfront/Query/SphereRegion.h"
 
 #include "TestBuildClouds.h"
 
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -260,6 +263,120 @@ TEST(PolygonPrism, DegenerateRings)
   EXPECT_TRUE(
     refused(PolygonPrism::make({ PlanarPolygon{ { { { 0, 0 }, { 1, 0 }, { infinity, 1 } } } } })));
   EXPECT_TRUE(refused(PolygonPrism::make({ square }, { nan, 1.0 })));
+}
+
+/// The eight corners of a box around `centre` with edges of 2 * half along three orthonormal axes,
+/// and its planes.
+struct TurnedBox
+{
+  std::vector<glm::dvec3> corners;
+  std::vector<glm::dvec4> planes;
+
+  TurnedBox(Random& random, const glm::dvec3& centre, const glm::dvec3& half)
+  {
+    const auto some = [&random]
+    { return glm::dvec3(random.uniform(), random.uniform(), random.uniform()) - 0.5; };
+    glm::dmat3 axes(glm::normalize(some()), some(), glm::dvec3());
+    axes[1] = glm::normalize(glm::cross(axes[0], axes[1]));
+    axes[2] = glm::cross(axes[0], axes[1]);
+    for (int i = 0; i < 8; ++i)
+    {
+      const glm::dvec3 sign(i & 1 ? 1.0 : -1.0, i & 2 ? 1.0 : -1.0, i & 4 ? 1.0 : -1.0);
+      corners.push_back(centre + axes * (sign * half));
+    }
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      for (const double sign : { 1.0, -1.0 })
+      {
+        const glm::dvec3 inward = sign * axes[axis];
+        planes.emplace_back(inward, half[axis] - glm::dot(inward, centre));
+      }
+    }
+  }
+};
+
+TEST(ConvexRegion, BoundsAreThoseOfItsCorners)
+{
+  Random random(17);
+  for (int round = 0; round < 200; ++round)
+  {
+    const glm::dvec3 half(1.0 + 90.0 * random.uniform(), 5.0, 20.0 * random.uniform() + 0.01);
+    const TurnedBox turned(random, { 637000.0, 5850000.0, 50.0 }, half);
+    Bounds expected;
+    for (const glm::dvec3& corner : turned.corners)
+    {
+      expected.add(corner);
+    }
+    const Bounds bounds = ConvexRegion::make(turned.planes).value()->bounds();
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      EXPECT_LE(bounds.low[axis], expected.low[axis]);
+      EXPECT_GE(bounds.high[axis], expected.high[axis]);
+      EXPECT_NEAR(bounds.low[axis], expected.low[axis], 1e-3);
+      EXPECT_NEAR(bounds.high[axis], expected.high[axis], 1e-3);
+    }
+  }
+  const Bounds wedge =
+    ConvexRegion::make({ { 1, 0, 0, -5 }, { -1, 0, 0, 7 }, { 0, 2, 0, 0 }, { 0, 0, 1, 0 } })
+      .value()
+      ->bounds();
+  EXPECT_NEAR(wedge.low.x, 5.0, 1e-6);
+  EXPECT_NEAR(wedge.high.x, 7.0, 1e-6);
+  EXPECT_NEAR(wedge.low.y, 0.0, 1e-6);
+  EXPECT_EQ(wedge.high.y, infinity);
+  // A column on its edge, without ends; and half of space that no axis is square to.
+  const Bounds column =
+    ConvexRegion::make({ { 1, 1, 0, -1 }, { 1, -1, 0, 1 }, { -1, 1, 0, 3 }, { -1, -1, 0, 5 } })
+      .value()
+      ->bounds();
+  EXPECT_NEAR(column.low.x, 0.0, 1e-6);
+  EXPECT_NEAR(column.high.x, 4.0, 1e-6);
+  EXPECT_NEAR(column.low.y, -1.0, 1e-6);
+  EXPECT_NEAR(column.high.y, 3.0, 1e-6);
+  EXPECT_EQ(column.high.z, infinity);
+  const Bounds half = ConvexRegion::make({ { 1, 2, 3, 0 } }).value()->bounds();
+  EXPECT_TRUE(half.low == glm::dvec3(-infinity) && half.high == glm::dvec3(infinity));
+  EXPECT_NEAR(ConvexRegion::make({ { 0, -2, 0, 6 } }).value()->bounds().high.y, 3.0, 1e-6);
+}
+
+TEST(MissedRegion, IsToldOfEachShapeThatLiesBesideTheCloud)
+{
+  StoreDescription store;
+  store.bounds = { glm::dvec3(0.0), glm::dvec3(100.0, 100.0, 10.0) };
+  const double s = std::sqrt(0.5);
+  // A square column on its edge, whose nearest edge is `gap` beside the cloud's middle: no plane of
+  // it has the whole cloud on its outer side.
+  const auto diamond = [s](double gap)
+  {
+    const double x = 100.0 + gap + 10.0;
+    return ConvexRegion::make(
+      { { s, s, 0, -s * (x + 50.0) + 10.0 * s }, { s, -s, 0, -s * (x - 50.0) + 10.0 * s },
+        { -s, -s, 0, s * (x + 50.0) + 10.0 * s }, { -s, s, 0, s * (x - 50.0) + 10.0 * s },
+        { 0, 0, 1, 0 }, { 0, 0, -1, 10 } })
+      .value();
+  };
+  const auto square = [](double x) {
+    return prismOf({ { { x, 0 }, { x + 10, 0 }, { x + 10, 10 }, { x, 10 } } });
+  };
+  const auto told = [&store](const std::shared_ptr<const Region>& region)
+  {
+    PointQuery query;
+    query.regions.push_back(region);
+    return missedRegion(store, query);
+  };
+  EXPECT_EQ(told(BoxRegion::make({ glm::dvec3(101.0), glm::dvec3(102.0) }).value()).value_or(""),
+    "the region lies beside the cloud, so there are no points: the cloud has coordinates from "
+    "(0, 0, 0) to (100, 100, 10)");
+  EXPECT_TRUE(told(SphereRegion::make({ -5.0, 50.0, 5.0 }, 4.0).value()));
+  EXPECT_TRUE(told(square(101)));
+  EXPECT_TRUE(told(LineCorridor::make({ { { 0, 120 }, { 100, 120 } } }, 19.0).value()));
+  EXPECT_EQ(diamond(1.0)->overlap(store.bounds), Overlap::Crossing);
+  EXPECT_TRUE(told(diamond(1.0)));
+  EXPECT_FALSE(told(diamond(-1.0)));
+  EXPECT_FALSE(told(square(99)));
+  EXPECT_FALSE(told(LineCorridor::make({ { { 0, 120 }, { 100, 120 } } }, 21.0).value()));
+  EXPECT_FALSE(missedRegion(store, {}));
+  EXPECT_FALSE(missedRegion({}, {}));
 }
 
 TEST(LineCorridor, HasRoundEndsAndTakesASinglePlace)

@@ -22,7 +22,9 @@ public:
 
   bool contains(const glm::dvec3& point) const override;
   Overlap overlap(const Bounds& box) const override;
-  Bounds bounds() const override; ///< all of space
+  /// The region's extent along each axis, a little more for rounding; infinite where the planes
+  /// do not end it, and along all axes for more than 24 planes.
+  Bounds bounds() const override;
 
 private:
   explicit ConvexRegion(std::vector<glm::dvec4> planes)

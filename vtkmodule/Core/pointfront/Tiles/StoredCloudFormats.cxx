@@ -98,6 +98,14 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::s
       "'" + path + "' is not a PointFront store; its index is there, name that: '" + path +
         indexExtension + "'");
   }
+  if (std::error_code failure; !format && std::filesystem::is_directory(path, failure))
+  {
+    return makeError(Error::Kind::NotFound,
+      path +
+        ": the folder and those below it hold no stored cloud; names were looked for that end "
+        "in .pfront, .pfindex, .copc.laz, and ept.json in the folder itself. Of point files "
+        "'pointfront build' makes a store");
+  }
   Result<std::shared_ptr<const StoredCloud>> cloud =
     format ? format->open(path) : StoreFile().open(path);
   if (!cloud && held && !held->isStillNamed())

@@ -144,7 +144,7 @@ public:
     request.composited = composited;
     request.growth = growthStep > 0.0 ? &growth_ : nullptr;
     clock_ += growthStep;
-    request.moment = { clock_, 0.25, false };
+    request.moment = { clock_, 0.25, moving, {} };
     plan = planFrame(front_, store_->description(), std::move(request));
   }
   /// Whether no further frame of the view differs.
@@ -166,6 +166,7 @@ public:
   bool refines = true; ///< as PlanRequest's
   bool composited = false; ///< likewise: it is one of several clouds
   double growthStep = 0.0; ///< seconds from a frame to the next; 0: nothing grows
+  bool moving = false; ///< as GrowthMoment's
   FrameRequest demand;
   FrameCamera camera;
   FramePlan plan; ///< plan of the last frame

@@ -45,7 +45,10 @@ public:
     ++reads;
     NodeColumns node;
     node.node = fetched.node;
-    node.describe(table->node(fetched.node));
+    const Node row = table->node(fetched.node);
+    node.describe(row);
+    node.origin =
+      QuantisationGrid{ glm::dvec3(0.01) }.toGrid(row.centre - glm::dvec3(row.halfSize));
     node.positions.resize(pointsOfPlannedNode);
     node.selection = fetched.columns;
     node.columns.resize(fetched.columns.size(), std::vector<std::byte>(pointsOfPlannedNode));
@@ -85,6 +88,8 @@ struct PlannerScene
     description.grid.scale = glm::dvec3(0.01);
     demand.view =
       View::perspective({ 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
+    request.camera =
+      FrameCamera::perspective({ 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
     demand.complete = true;
     request.styles = { flatStyle(), flatStyle(), flatStyle() };
   }

@@ -55,6 +55,39 @@ TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
   EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 30.0f) << "the nearer of the two";
 }
 
+/// Points of the node above close what grows. The nodes above that lie across the
+/// whole view: with large splats they covered everything else.
+TEST(FramePlanner, WhatGrowsIsClosedByItsParentAlone)
+{
+  std::vector<DrawBatch> batches(1);
+  for (NodeIndex number = 0; number < 4; ++number)
+  {
+    auto node = std::make_shared<NodeColumns>();
+    node->node = number;
+    node->parent = number == 0 ? noNode : number - 1;
+    PlanItem item;
+    item.node = node;
+    item.last = 1000;
+    item.growingSpacingPx = number == 3 ? 8.0f : 0.0f;
+    batches[0].items.push_back(item);
+  }
+  const auto spacings = [&]
+  {
+    matchNeighbours(batches, QuantisationGrid());
+    std::vector<float> all;
+    for (const PlanItem& item : batches[0].items)
+    {
+      all.push_back(item.growingSpacingPx);
+    }
+    return all;
+  };
+  // The parent's points alone are a quarter of an octave farther apart than with those above.
+  EXPECT_EQ(spacings(), (std::vector<float>{ 0.0f, 0.0f, 8.0f * 1.1892071f, 8.0f }));
+  batches[0].items.erase(batches[0].items.begin() + 2, batches[0].items.end());
+  batches[0].items[1].growingSpacingPx = 8.0f;
+  EXPECT_EQ(spacings(), (std::vector<float>{ 8.0f, 8.0f })) << "nothing is above a root";
+}
+
 TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
 {
   std::vector<DrawBatch> batches(2);

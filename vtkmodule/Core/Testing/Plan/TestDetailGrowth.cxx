@@ -238,6 +238,35 @@ TEST(DetailGrowth, ABranchThatComesIntoViewIsThereAtOnce)
   EXPECT_TRUE(scene.whole(4, 100));
 }
 
+/// A node that grew beside the view would be small where nobody saw anything before.
+TEST(DetailGrowth, WhatComesInFromTheSideIsThereAtOnce)
+{
+  for (const bool ordered : { true, false })
+  {
+    Growing scene(ordered);
+    scene.frame(0.0, { { 0, allPoints } });
+    scene.growth.begin({ scene.seconds + 0.01, duration, true }, ordered);
+    scene.growth.grow(scene.nodes[0], allPoints);
+    EXPECT_TRUE(scene.growth.grow(scene.nodes[1], allPoints, false).growth.whole());
+    EXPECT_FALSE(scene.growth.grow(scene.nodes[2], allPoints, true).growth.whole());
+  }
+}
+
+TEST(DetailGrowth, ThePlacesOfTheLastFrameAreThoseItsSidesHeld)
+{
+  DetailGrowth growth;
+  const Bounds left{ { -2, 0, 0 }, { -1, 1, 1 } }, across{ { -2, 0, 0 }, { 1, 1, 1 } };
+  GrowthMoment right{ 1.0, duration, true, {} };
+  right.sides[0] = { 1, 0, 0, 0 }; // x >= 0
+  growth.begin(right, true);
+  EXPECT_TRUE(growth.saw(left)) << "before the first frame nothing is known";
+  growth.begin({ 1.01, duration, true, {} }, true);
+  EXPECT_FALSE(growth.saw(left));
+  EXPECT_TRUE(growth.saw(across));
+  growth.begin({ 1.02, duration, true, {} }, true);
+  EXPECT_TRUE(growth.saw(left)) << "a view without sides sees all";
+}
+
 /// A tree whose children replace their parents: the parent stays until they have their size.
 TEST(DetailGrowth, WhatIsReplacedGoesLast)
 {

@@ -19,6 +19,10 @@ constexpr double mostOfMean = 2.0;
 /// Share of a node's ground that another has to share to say how dense it is there. Cells of trees
 /// halve, so a quarter is a usual share; a little less counts, too: rounding must not decide.
 constexpr double leastShare = 0.24;
+/// Points of a node alone are at most so many times as far apart as with all coarser ones: those
+/// close the surface while a child grows. Coarser nodes lie across the whole view; their splats
+/// would cover what is not growing. A step of FramePlanner's ladder (a quarter of an octave).
+constexpr float withoutCoarser = 1.1892071f;
 
 /// A node's ground in world units.
 struct Ground
@@ -40,6 +44,7 @@ struct DrawnNode
   float sparsestRadius = 0.0f;
   float growingSpacingPx = 0.0f;
   bool refined = false;
+  float handedSpacingPx = 0.0f; ///< that the node's parent has to close while the node grows
 };
 
 Ground groundOf(const PlanItem& item, const QuantisationGrid& grid)
@@ -69,7 +74,8 @@ std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches, const Quan
     for (const PlanItem& item : batch.items)
     {
       nodes.push_back({ item.node->node, item.node->parent, batch.layer, item.last - item.first,
-        item.closingRadius, item.unfinished, groundOf(item, grid), 0.0f, item.growingSpacingPx });
+        item.closingRadius, item.unfinished, groundOf(item, grid), 0.0f, item.growingSpacingPx,
+        false, item.growingSpacingPx });
     }
   }
   std::stable_sort(nodes.begin(), nodes.end(),
@@ -139,7 +145,8 @@ void refine(std::vector<DrawnNode>& nodes)
     if (parent != nodes.end() && parent->node == drawn.parent)
     {
       parent->refined = true;
-      parent->growingSpacingPx = std::max(parent->growingSpacingPx, drawn.growingSpacingPx);
+      const float own = parent->parent == noNode ? 1.0f : withoutCoarser;
+      parent->growingSpacingPx = std::max(parent->growingSpacingPx, own * drawn.handedSpacingPx);
       finer[static_cast<std::size_t>(parent - nodes.begin())].add(radii);
     }
   }

@@ -1,5 +1,8 @@
 #include "pointfront/Plan/DetailGrowth.h"
 
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -17,6 +20,18 @@ constexpr double halfway = 0.5;
 constexpr double longestStep = 0.5;
 
 } // namespace
+
+bool GrowthMoment::sees(const Bounds& place) const
+{
+  const auto reaches = [&](const glm::dvec4& side)
+  {
+    const glm::dvec3 normal(side);
+    const glm::dvec3 farthest(normal.x > 0.0 ? place.high.x : place.low.x,
+      normal.y > 0.0 ? place.high.y : place.low.y, normal.z > 0.0 ? place.high.z : place.low.z);
+    return glm::dot(normal, farthest) + side.w >= 0.0;
+  };
+  return std::all_of(sides.begin(), sides.end(), reaches);
+}
 
 const DetailGrowth::State* DetailGrowth::States::find(NodeIndex node) const
 {
@@ -46,6 +61,7 @@ void DetailGrowth::begin(const GrowthMoment& moment, bool ordered)
   const bool first = !begun_ || ordered != ordered_ || moment.duration <= 0.0;
   before_ = first ? States() : std::move(now_);
   now_ = {};
+  last_ = first ? GrowthMoment() : moment_;
   moment_ = moment;
   ordered_ = ordered;
   begun_ = true;
@@ -64,7 +80,7 @@ void DetailGrowth::reset()
 }
 
 DetailGrowth::Shown DetailGrowth::grow(
-  const std::shared_ptr<const NodeColumns>& node, std::uint32_t points)
+  const std::shared_ptr<const NodeColumns>& node, std::uint32_t points, bool wasSeen)
 {
   if (moment_.duration <= 0.0 || points == 0)
   {
@@ -73,10 +89,10 @@ DetailGrowth::Shown DetailGrowth::grow(
   State& state = now_.add(node->node, node->parent);
   state.points = points;
   state.node = node;
-  return ordered_ ? growOrdered(state, *node) : growWhole(state, *node);
+  return ordered_ ? growOrdered(state, *node, wasSeen) : growWhole(state, *node, wasSeen);
 }
 
-DetailGrowth::Shown DetailGrowth::growOrdered(State& now, const NodeColumns& node)
+DetailGrowth::Shown DetailGrowth::growOrdered(State& now, const NodeColumns& node, bool wasSeen)
 {
   const State* const before = before_.find(node.node);
   const double points = now.points;
@@ -85,7 +101,7 @@ DetailGrowth::Shown DetailGrowth::growOrdered(State& now, const NodeColumns& nod
   // All there is of a node is whole in motion too: what is finer follows.
   const double wanted = moment_.moving && now.points < node.size() ? points : whole;
   now.shown = wanted;
-  if (before || before_.find(node.parent))
+  if (before || (wasSeen && before_.find(node.parent)))
   {
     const double last = before ? std::min(before->shown, whole) : 0.0;
     const double most = step_ * whole;
@@ -99,17 +115,19 @@ DetailGrowth::Shown DetailGrowth::growOrdered(State& now, const NodeColumns& nod
   whole_ = false;
   Shown result;
   result.points = std::min(now.points, static_cast<std::uint32_t>(std::ceil(now.shown)));
-  result.spread = static_cast<std::uint32_t>(std::clamp(now.shown - 0.5 * falling, 1.0, points));
+  // A prefix that does not change counts as it is wanted, in motion too: small points at its end
+  // are no reason for larger splats.
+  result.spread = static_cast<std::uint32_t>(std::clamp(now.shown * points / wanted, 1.0, points));
   result.growth.first = static_cast<float>(now.shown / falling);
   result.growth.perPoint = static_cast<float>(1.0 / falling);
   return result;
 }
 
-DetailGrowth::Shown DetailGrowth::growWhole(State& now, const NodeColumns& node)
+DetailGrowth::Shown DetailGrowth::growWhole(State& now, const NodeColumns& node, bool wasSeen)
 {
   const State* const before = before_.find(node.node);
   now.shown = 1.0;
-  if (before || before_.hasRelatives(node.node, node.parent))
+  if (before || (wasSeen && before_.hasRelatives(node.node, node.parent)))
   {
     now.shown = std::min(1.0, (before ? before->shown : 0.0) + step_);
   }

@@ -1,8 +1,12 @@
 #pragma once
 
+#include "pointfront/Base/Bounds.h"
 #include "pointfront/Plan/PointGrowth.h"
 #include "pointfront/Store/NodeReader.h"
 
+#include <glm/vec4.hpp>
+
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <unordered_map>
@@ -18,6 +22,10 @@ struct GrowthMoment
   double seconds = 0.0; ///< time of any clock that does not go back: only differences count
   double duration = 0.0; ///< seconds that a node takes to grow; 0: all is whole at once
   bool moving = false; ///< the view is in motion
+  /// Left, right, bottom and top of the view as View::planes; zeros: all places are in sight.
+  std::array<glm::dvec4, 4> sides{};
+
+  bool sees(const Bounds& place) const;
 };
 
 /// Lets detail grow from frame to frame instead of popping up (SMOOTH-6). For one view it chooses
@@ -28,8 +36,9 @@ struct GrowthMoment
 ///            change slowly. At rest all become whole.
 /// Unordered  (Refinement::Replace) a node that replaces another grows as a whole; the replaced
 ///            node is drawn meanwhile and shrinks last, so that no hole opens.
-/// At once    nodes of the first frame, and nodes that come into view with their whole branch, are
-///            whole.
+/// At once    nodes of the first frame, nodes that come into view with their whole branch, and
+///            nodes whose place was beside the last frame's view are whole: nobody saw their
+///            place without them.
 /// At rest    after `duration` nothing is left of it: the plan is the same, bit for bit, as one
 ///            that never grew.
 /// Pauses     a frame counts for half of `duration` at most, so that a change after a long rest
@@ -59,7 +68,11 @@ public:
 
   void begin(const GrowthMoment& moment, bool ordered);
   /// Called for each node of which the front draws `points` points.
-  Shown grow(const std::shared_ptr<const NodeColumns>& node, std::uint32_t points);
+  /// `wasSeen`: the last frame had the node's place in sight.
+  Shown grow(
+    const std::shared_ptr<const NodeColumns>& node, std::uint32_t points, bool wasSeen = true);
+  /// Whether the frame before this one had a place in sight, store coordinates.
+  bool saw(const Bounds& place) const { return last_.sees(place); }
   /// Called after all nodes: the nodes that are drawn in addition. Unordered only.
   std::vector<Leaving> finish();
 
@@ -89,10 +102,11 @@ private:
     /// Whether the node's source, or a node made from it, is there.
     bool hasRelatives(NodeIndex node, NodeIndex parent) const;
   };
-  Shown growOrdered(State& now, const NodeColumns& node);
-  Shown growWhole(State& now, const NodeColumns& node);
+  Shown growOrdered(State& now, const NodeColumns& node, bool wasSeen);
+  Shown growWhole(State& now, const NodeColumns& node, bool wasSeen);
 
   GrowthMoment moment_;
+  GrowthMoment last_; ///< that of the frame before
   bool ordered_ = true;
   bool begun_ = false;
   bool growing_ = false;

@@ -7,6 +7,7 @@
 #include "pointfront/Plan/StandIns.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -37,15 +38,17 @@ float inSteps(double spacingPx)
     std::exp2(std::ceil(stepsAnOctave * std::log2(spacingPx)) / stepsAnOctave));
 }
 
-/// Pixels between the points on screen while `spread` of a node's points have grown. A leaf has no
-/// finer points, so what it lacks is counted from `spacingPx` on.
+/// Pixels between the points on screen while `spread` of a node's points have grown; 0: they close
+/// the surface as it is drawn at `spacingPx`. A leaf has no finer points, so what it lacks is
+/// counted from there on.
 float growingSpacing(const NodeColumns& node, std::uint32_t spread, float spacingRatio,
   double errorPx, double spacingPx)
 {
   const double whole = node.leaf ? std::min(errorPx, spacingPx) : errorPx;
   const auto points = static_cast<std::uint32_t>(node.size());
   const double most = std::max(mostGrowingPx, spacingPx);
-  return inSteps(std::min(most, prefixErrorPx(points, spread, whole, spacingRatio)));
+  const float px = inSteps(std::min(most, prefixErrorPx(points, spread, whole, spacingRatio)));
+  return px > std::exp2(1.0 / stepsAnOctave) * spacingPx ? px : 0.0f;
 }
 
 /// Keeps the nodes that can be seen, for a batch that is seen in a lens only.
@@ -146,17 +149,33 @@ PlanItem expectedItem(std::shared_ptr<const NodeColumns> node, DetailGrowth::Sho
   return item;
 }
 
+/// The sides of a frame's view, margin included.
+std::array<glm::dvec4, 4> sidesOf(const FrameCamera& camera)
+{
+  const View view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
+  std::array<glm::dvec4, 4> sides;
+  std::copy_n(view.planes.begin(), sides.size(), sides.begin());
+  return sides;
+}
+
+Bounds placeOf(const NodeColumns& node, const QuantisationGrid& grid)
+{
+  const glm::dvec3 low = grid.toWorld(node.origin);
+  return { low, low + 2.0 * glm::dvec3(node.halfSize) };
+}
+
 /// Those that have a style.
-LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request, double spacingPx,
-  const ExpectedNodes* expected)
+LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
+  const QuantisationGrid& grid, double spacingPx, const ExpectedNodes* expected)
 {
   const std::vector<LayerStyles>& styles = request.styles;
   const auto shows = [&](const std::shared_ptr<const NodeColumns>& node)
   { return node && node->layer < styles.size() && !styles[node->layer].empty(); };
   DetailGrowth still; // that of no duration
   DetailGrowth& growth = request.growth ? *request.growth : still;
-  growth.begin(
-    request.growth ? request.moment : GrowthMoment(), front.refinement() == Refinement::Add);
+  GrowthMoment moment = request.growth ? request.moment : GrowthMoment();
+  moment.sides = sidesOf(request.camera);
+  growth.begin(moment, front.refinement() == Refinement::Add);
   LayerItems layers;
   std::vector<std::vector<PlanItem>>& items = layers.items;
   items.resize(styles.size());
@@ -171,7 +190,7 @@ LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request, doub
     if (shows(node))
     {
       const auto points = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
-      const DetailGrowth::Shown shown = growth.grow(node, points);
+      const DetailGrowth::Shown shown = growth.grow(node, points, growth.saw(placeOf(*node, grid)));
       const std::uint16_t layer = node->layer;
       const TabledNode* const complete = expected ? expected->find(item.node) : nullptr;
       if (complete && shown.growth.whole() && shown.points >= complete->item.pointCount)
@@ -283,7 +302,7 @@ FramePlan planFrame(
   plan.composited = request.composited;
   plan.exchange = request.exchange;
   plan.shading = std::move(request.shading);
-  LayerItems items = itemsByLayer(front, request, spacingPx, expected);
+  LayerItems items = itemsByLayer(front, request, plan.grid, spacingPx, expected);
   const bool whole = front.last().complete && (!request.growth || request.growth->whole());
   plan.refining = expected && !whole;
   std::vector<DrawBatch> layers = batchesOf(std::move(items.items));

@@ -5,6 +5,7 @@
 #include "FarOptions.h"
 #include "PeakMemory.h"
 #include "Percentiles.h"
+#include "QualityReport.h"
 #include "Settling.h"
 #include "Values.h"
 #include "WholeFile.h"
@@ -133,6 +134,7 @@ Result<void> BenchCommand::run()
   {
     return free;
   }
+  tellQuality(name(), drawing_);
   drawing_.measureEmptyScene = true;
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
   if (!scene)
@@ -144,17 +146,15 @@ Result<void> BenchCommand::run()
     warn(name(), warning);
   }
   const Result<CameraPath> cameras = path(**scene);
-  if (!cameras)
-  {
-    return cameras.error();
-  }
-  Result<std::vector<FrameRecord>> frames = replay(**scene, cameras.value(), interactive_);
+  auto frames = cameras ? replay(**scene, cameras.value(), interactive_)
+                        : Result<std::vector<FrameRecord>>(cameras.error());
   if (!frames)
   {
     return frames.error();
   }
   nlohmann::ordered_json statistics = benchStatistics(frames.value());
   statistics["backend"] = (*scene)->backend();
+  addQuality(statistics, drawing_, frames->empty() ? FrameRecord() : frames->back());
   if (settles_)
   {
     (*scene)->setInteractive(false);

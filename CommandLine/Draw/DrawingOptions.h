@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Quality/QualityChoice.h"
 #include "pointfront/Style/StyleSheet.h"
 
 #include <CLI/CLI.hpp>
@@ -43,6 +44,9 @@ struct DrawingOptions
   /// --style, changed by --technique, --color-by, --point-size, --where, --classes and --edl.
   /// Complete when parsing is.
   StyleSheet style;
+  std::string qualityAsked; ///< --quality, as it was written
+  /// The place that --quality chose from the curve, where it was a number.
+  std::optional<QualityChoice> quality;
   std::string detail = "front"; ///< or "view": how the detail of a view is chosen
 
   /// Adds the options to a command; this object must outlive the parsing.

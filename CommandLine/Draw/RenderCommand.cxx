@@ -5,6 +5,7 @@
 #include "FarOptions.h"
 #include "KnownWords.h"
 #include "PeakMemory.h"
+#include "QualityReport.h"
 #include "StoreCompany.h"
 #include "Values.h"
 #include "WholeFile.h"
@@ -156,8 +157,7 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
 /// together, the others are farther apart than --error asks.
 bool RenderCommand::limitedByDetail(const FrameRecord& last) const
 {
-  constexpr double slack = 1.01;
-  return drawing_.detail == "view" && last.errorPx > slack * drawing_.errorPx;
+  return drawing_.detail == "view" && last.errorPx > drawing_.errorPx;
 }
 
 Result<void> RenderCommand::run()
@@ -175,6 +175,7 @@ Result<void> RenderCommand::run()
   {
     warn(name(), doubt);
   }
+  tellQuality(name(), drawing_);
   Result<std::unique_ptr<StoreScene>> scene = StoreScene::open(drawing_);
   if (!scene)
   {
@@ -237,6 +238,7 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
       { "budget_share", *drawing_.style.styleOf(code).budgetShare } });
   }
   object["error_px"] = last.errorPx;
+  addQuality(object, drawing_, last);
   object["limited_by"] = nlohmann::ordered_json::array();
   if (last.limitedByPoints)
   {

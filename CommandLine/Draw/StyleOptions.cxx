@@ -6,7 +6,7 @@
 
 #include "StyleJSON.h"
 
-#include "pointfront/Style/QualityPreset.h"
+#include "pointfront/Quality/QualityChoice.h"
 #include "pointfront/Style/TechniqueNames.h"
 
 #include <cstdint>
@@ -32,7 +32,6 @@ CLI::ParseError wrong(const std::string& option, const std::string& why)
 struct StyleArguments
 {
   std::string file;
-  std::string quality;
   std::string technique;
   std::string orientation;
   std::string where;
@@ -95,14 +94,26 @@ FilterExpression joined(const FilterExpression& file, const FilterExpression& op
   return FilterExpression::parse(file.text + " and " + option.text).value();
 }
 
+/// `hasError`: --error was given, and counts more.
+void applyQuality(bool hasError, DrawingOptions& options, StyleSheet& sheet)
+{
+  const Result<QualityChoice> choice = chooseQuality(options.qualityAsked);
+  if (!choice)
+  {
+    throw wrong("--quality", choice.error().what);
+  }
+  choice->preset.applyTo(sheet.standard);
+  options.errorPx = hasError ? options.errorPx : choice->preset.errorPx;
+  options.quality = choice->place ? std::optional<QualityChoice>(*choice) : std::nullopt;
+}
+
 /// An option of its own counts more than the preset.
 StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, DrawingOptions& options)
 {
   StyleSheet sheet = arguments.file.empty() ? StyleSheet() : readStyle(arguments.file);
-  if (const QualityPreset* const preset = qualityPresetOf(arguments.quality))
+  if (!options.qualityAsked.empty())
   {
-    preset->applyTo(sheet.standard);
-    options.errorPx = app.count("--error") > 0 ? options.errorPx : preset->errorPx;
+    applyQuality(app.count("--error") > 0, options, sheet);
   }
   if (!arguments.technique.empty())
   {
@@ -169,15 +180,11 @@ void declareStyle(CLI::App& app, DrawingOptions& options)
       "How each class is drawn, as JSON (docs/user/styles.md); other options change its default")
     ->type_name("FILE.json")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
-  std::vector<std::string> presets;
-  for (const QualityPreset& preset : qualityPresets)
-  {
-    presets.emplace_back(preset.name);
-  }
   app
-    .add_option("--quality", arguments->quality,
-      "Technique and --error together, from fast to accurate (none)")
-    ->check(knownWords(presets))
+    .add_option("--quality", options.qualityAsked,
+      "Technique and --error together: draft, balanced or exact; the fastest of an SSIM, as 0.95; "
+      "or the most accurate of a frame time, as 33ms (none)")
+    ->type_name("PRESET|SSIM|MS")
     ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
   app.add_option("--technique", arguments->technique, "How points become pixels (points)")
     ->check(knownWords(techniques))

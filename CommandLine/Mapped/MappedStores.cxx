@@ -281,9 +281,12 @@ FrameRecord MappedStores::record() const
 {
   FrameRecord frame;
   frame.complete = true;
+  frame.technique = stores_.empty() ? "" : stores_.front()->mapper->GetLastTechnique();
   for (const auto& mapped : stores_)
   {
     vtkPointFrontMapper* const mapper = mapped->mapper;
+    const bool alike = frame.technique == mapper->GetLastTechnique();
+    frame.technique = alike ? frame.technique : std::string();
     const ResidencyStatistics residency = mapped->store->GetResidency().statistics();
     frame.frontMilliseconds += mapper->GetLastFrontTime();
     frame.points += mapper->GetLastPointsDrawn();

@@ -5,6 +5,7 @@
 #include "SourceFormats.h"
 #include "SourceInfo.h"
 #include "StatisticsReport.h"
+#include "StoreEstimate.h"
 #include "StoreInfo.h"
 #include "Values.h"
 
@@ -239,11 +240,12 @@ Result<void> InfoCommand::tellSource(
   }
   if (!json_)
   {
-    print(sourceText(*info) + (tree ? tree->text : "") +
+    print(sourceText(*info) + (tree ? tree->text : "") + estimateText(*info) +
       (statistics ? statisticsText(*statistics) : ""));
     return {};
   }
   reports.push_back(sourceJson(*info));
+  reports.back()["estimate"] = estimateJson(*info);
   if (tree && tree->fault.empty())
   {
     reports.back()["structure"] = tree->structure;

@@ -3,6 +3,7 @@
 #include "ShownClasses.h"
 
 #include "pointfront/Detail/DetailLevel.h"
+#include "pointfront/Quality/QualityCurve.h"
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Style/ClassHeights.h"
 
@@ -149,6 +150,9 @@ FrameRecord DrawnStores::record() const
     frame.bytesRead += residency.bytesRead;
     frame.cancelled += residency.cancelled;
   }
+  MeasuredTechnique technique;
+  forEachStyle([&technique](const ResolvedStyle& style) { technique.add(style); });
+  frame.technique = technique.name();
   return frame;
 }
 

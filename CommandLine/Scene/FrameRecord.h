@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -27,6 +28,8 @@ struct FrameRecord
   std::int64_t requests = 0;
   double thresholdPx = 0.0; ///< largest
   double errorPx = 0.0; ///< largest
+  /// How points became pixels, as MeasuredTechnique says it; empty: not measured.
+  std::string technique;
   bool complete = false; ///< no further frame will change the picture
   /// A complete picture shows a point in a pixel at least. Points that were drawn may all be hidden
   /// by a condition, or lie beside the view.

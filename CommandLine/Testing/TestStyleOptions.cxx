@@ -104,7 +104,7 @@ TEST(StyleOptions, AQualityIsTechniqueAndErrorTogether)
   EXPECT_EQ(draft.errorPx, 2.0);
   const DrawingOptions exact = parsed({ "--quality", "exact", "--error", "1.5" });
   EXPECT_EQ(exact.style.standard.technique, Technique::Ewa);
-  EXPECT_EQ(exact.style.standard.accuracy, SplatAccuracy::Full);
+  EXPECT_EQ(exact.style.standard.accuracy, SplatAccuracy::Affine);
   EXPECT_EQ(exact.errorPx, 1.5) << "an option of its own counts more";
   EXPECT_EQ(parsed({ "--technique", "spheres", "--quality", "balanced" }).style.standard.technique,
     Technique::Spheres);

@@ -5,8 +5,8 @@
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/FrameStatistics.h"
+#include "pointfront/Quality/QualityChoice.h"
 #include "pointfront/Style/GpuStreams.h"
-#include "pointfront/Style/QualityPreset.h"
 #include "pointfront/Views/WallReach.h"
 #include "vtkPointFrontStyle.h"
 
@@ -81,6 +81,37 @@ void vtkPointFrontMapper::SetClassBudgetShare(int objectClass, double share)
 double vtkPointFrontMapper::GetClassBudgetShare(int objectClass) const
 {
   return this->Internals->Limits.of(objectClass).share;
+}
+
+bool vtkPointFrontMapper::GetLastExpectedDifference(
+  double psnr[3], double ssim[3], double shareOver8[3]) const
+{
+  const pointfront::FrameStatistics& last = this->GetStatistics();
+  const auto expected = pointfront::expectedDifference(last.technique, last.errorPx);
+  if (!expected)
+  {
+    return false;
+  }
+  const auto set = [](const pointfront::CurveRange& range, double values[3])
+  {
+    values[0] = range.least;
+    values[1] = range.middle;
+    values[2] = range.most;
+  };
+  set(expected->psnr, psnr);
+  set(expected->ssim, ssim);
+  set(expected->off, shareOver8);
+  return true;
+}
+
+std::string vtkPointFrontMapper::GetLastExpectedSource() const
+{
+  return pointfront::curveSource();
+}
+
+std::string vtkPointFrontMapper::GetLastTechnique() const
+{
+  return this->GetStatistics().technique;
 }
 
 const std::vector<std::uint64_t>& vtkPointFrontMapper::GetLastLayerPoints() const
@@ -187,10 +218,10 @@ void vtkPointFrontMapper::SetStyle(vtkPointFrontStyle* style)
 
 bool vtkPointFrontMapper::SetQuality(const std::string& name)
 {
-  const pointfront::QualityPreset* const preset = pointfront::qualityPresetOf(name);
-  if (!preset)
+  const pointfront::Result<pointfront::QualityChoice> choice = pointfront::chooseQuality(name);
+  if (!choice)
   {
-    vtkErrorMacro("'" << name << "' is no quality; use draft, balanced or exact");
+    vtkErrorMacro(<< choice.error().what);
     return false;
   }
   if (!this->GetStyle())
@@ -198,7 +229,7 @@ bool vtkPointFrontMapper::SetQuality(const std::string& name)
     vtkNew<vtkPointFrontStyle> style;
     this->SetStyle(style);
   }
-  this->SetTargetError(preset->errorPx);
+  this->SetTargetError(choice->preset.errorPx);
   return this->GetStyle()->SetQuality(name);
 }
 

@@ -225,9 +225,10 @@ public:
   ///@}
 
   /**
-   * "draft", "balanced" or "exact": a place between speed and accuracy. Sets TargetError, and how
-   * the style's points become pixels; without a style the mapper gets one. False, and an error, for
-   * another name.
+   * "draft", "balanced" or "exact"; an SSIM, as "0.95"; or milliseconds of a frame, as "33ms": a
+   * place between speed and accuracy, for a number the one of docs/tradeoffs.md that has it. Sets
+   * TargetError, and how the style's points become pixels; without a style the mapper gets one.
+   * False, and an error, for anything else.
    */
   bool SetQuality(const std::string& name);
 
@@ -305,6 +306,20 @@ public:
   bool GetLastLimitedByMemory() const;
   /// Nodes of this view that could not be read; the nodes above them are drawn in their place.
   vtkIdType GetLastFailedNodes() const;
+  ///@}
+
+  ///@{
+  /**
+   * How far the last picture is expected to be from the truth: PSNR in dB, SSIM, and the share of
+   * pixels that are off by more than 8 of 255, 0 to 1. Each is least, median and most of the scenes
+   * that docs/tradeoffs.md measured by the same technique at LastError. False, and nothing is set,
+   * where the technique or such an error was not measured. Source says what the numbers are of.
+   */
+  bool GetLastExpectedDifference(double psnr[3], double ssim[3], double shareOver8[3]) const;
+  std::string GetLastExpectedSource() const;
+  /// The technique in the words of that page: "points", "discs", "ellipses", "blended", "ewa",
+  /// "ewa full"; empty where it was not measured.
+  std::string GetLastTechnique() const;
   ///@}
 
   enum EventIds

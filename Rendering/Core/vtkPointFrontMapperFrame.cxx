@@ -9,6 +9,7 @@
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Plan/LensWindows.h"
+#include "pointfront/Quality/QualityCurve.h"
 #include "pointfront/Style/GpuStreams.h"
 #include "pointfront/Views/SplatReach.h"
 #include "pointfront/Views/WallReach.h"
@@ -32,6 +33,16 @@ using Clock = std::chrono::steady_clock;
 double millisecondsSince(Clock::time_point begin)
 {
   return std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
+}
+
+std::string techniqueOf(const pointfront::FramePlan& plan)
+{
+  pointfront::MeasuredTechnique technique;
+  for (const pointfront::DrawBatch& batch : plan.batches)
+  {
+    technique.add(*batch.style);
+  }
+  return technique.name();
 }
 
 /// The margin that is drawn around the viewport. Plain points go straight into it.
@@ -290,6 +301,7 @@ void vtkPointFrontMapper::FinishFrame(
   statistics.points = static_cast<std::uint64_t>(points);
   statistics.layerPoints =
     view.Plan ? view.Plan->layerPoints() : std::vector<std::uint64_t>(); // wanted of each
+  statistics.technique = view.Plan ? techniqueOf(*view.Plan) : std::string();
   statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
   statistics.complete = view.Complete;
   const bool announce = view.Complete && !view.Announced;

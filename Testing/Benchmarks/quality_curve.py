@@ -9,7 +9,8 @@ of a motion with 33 ms a frame, and compared with the picture that it should giv
 file is one picture:
 
     scene, view, structure, precision   what is drawn, from where, of which store
-    technique, error_px                 as asked for; presets of --quality stand as techniques
+    technique, error_px                 as asked for; presets of --quality stand as techniques,
+                                        with the rows of the places that they are
     state                               complete; motion: the last frame of a turn
     drawn_error_px, points, bytes_read  what --stats says of it
     peak_rss_bytes                      of the process that made it
@@ -50,8 +51,8 @@ STYLES = {
     "ewa full": {"technique": "ewa", "accuracy": "full"},
 }
 PRESETS = ("draft", "balanced", "exact")
-PRESET_STYLES = {"draft": STYLES["ellipses"], "balanced": STYLES["blended"],
-                 "exact": STYLES["ewa full"]}
+# Where each preset lies: its rows are those of this technique and error, not drawn again.
+PRESET_PLACES = {"draft": ("ellipses", 2), "balanced": ("blended", 1), "exact": ("ewa", 0.5)}
 ERRORS_PX = (0.25, 0.5, 1, 2, 4, 8, 16)
 FRAME_MS = 33
 ORBIT_FRAMES = 40
@@ -71,12 +72,23 @@ class Curve:
     def __init__(self, options, rows):
         self.tool, self.build, self.rows = options.build / "bin/pointfront", options.build, rows
         self.errors = options.errors
+        self.written = []
 
     def write(self, scene, view, case, state, values):
         structure, precision = case.get("store", ("octree", "the file's"))
         row = {"scene": scene.name, "view": view, "structure": structure, "precision": precision,
-               "technique": case["technique"], "error_px": f"{case['error_px']:g}", "state": state}
-        self.rows.writerow({**row, **{key: shown(value) for key, value in values.items()}})
+               "technique": case["technique"], "error_px": f"{case['error_px']:g}", "state": state,
+               **{key: shown(value) for key, value in values.items()}}
+        self.rows.writerow(row)
+        if "store" not in case:
+            self.written.append(row)
+
+    def write_presets(self, scene):
+        for preset, (technique, error_px) in PRESET_PLACES.items():
+            for row in self.written:
+                if (row["scene"], row["technique"], row["error_px"]) \
+                        == (scene.name, technique, f"{error_px:g}"):
+                    self.rows.writerow({**row, "technique": preset})
 
     def words(self, scene, case):
         """The tool's options for a technique and an error."""
@@ -90,8 +102,6 @@ class Curve:
         for technique in STYLES:
             for error_px in self.errors:
                 yield {"technique": technique, "error_px": error_px}
-        for preset, error_px in zip(PRESETS, (2, 1, 0.5)):
-            yield {"technique": preset, "error_px": error_px}
 
     def compare(self, picture, truth, mask=None):
         words = ["--mask", mask] if mask else []
@@ -141,8 +151,7 @@ class Curve:
     def depths(self, scene, store, view, cases):
         """How far the depths of all cases are off; one VTK window draws them."""
         module = self.build / "lib/python3/dist-packages"
-        lines = [json.dumps({"style": {"default": PRESET_STYLES.get(case["technique"])
-                                       or STYLES[case["technique"]]},
+        lines = [json.dumps({"style": {"default": STYLES[case["technique"]]},
                              "error_px": case["error_px"]}) for case in cases]
         done = subprocess.run(
             [sys.executable, pathlib.Path(__file__).with_name("window_depth.py"), store,
@@ -162,6 +171,7 @@ class Curve:
                 if view.name == "middle":
                     self.write(scene, view.name, case, "motion",
                                self.motion(scene, store, view, case))
+        self.write_presets(scene)
         if scene.name in STORES_OF:
             self.measure_stores(scene, views)
 

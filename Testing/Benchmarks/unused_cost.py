@@ -93,26 +93,26 @@ class Runs:
               flush=True)
 
 
-def write_ply(path, further):
-    """Hills with rgb, and `further` attributes of floats."""
+def write_ply(path, further, points=POINTS):
+    """Hills of so many points with rgb, and `further` attributes of floats."""
     random = numpy.random.default_rng(1)
     fields = [("x", "<f8"), ("y", "<f8"), ("z", "<f8"),
               ("red", "u1"), ("green", "u1"), ("blue", "u1")]
     fields += [(f"extra_{i}", "<f4") for i in range(further)]
-    points = numpy.zeros(POINTS, fields)
-    points["x"] = numpy.round(random.uniform(0.0, 1000.0, POINTS), 3)
-    points["y"] = numpy.round(random.uniform(0.0, 1000.0, POINTS), 3)
-    hills = 20.0 * numpy.sin(points["x"] / 90.0) * numpy.cos(points["y"] / 70.0)
-    points["z"] = numpy.round(hills, 3)
+    rows = numpy.zeros(points, fields)
+    rows["x"] = numpy.round(random.uniform(0.0, 1000.0, points), 3)
+    rows["y"] = numpy.round(random.uniform(0.0, 1000.0, points), 3)
+    hills = 20.0 * numpy.sin(rows["x"] / 90.0) * numpy.cos(rows["y"] / 70.0)
+    rows["z"] = numpy.round(hills, 3)
     for name in ("red", "green", "blue"):
-        points[name] = random.integers(0, 256, POINTS)
+        rows[name] = random.integers(0, 256, points)
     values = numpy.random.default_rng(2)
     for i in range(further):
-        points[f"extra_{i}"] = values.normal(size=POINTS)
+        rows[f"extra_{i}"] = values.normal(size=points)
     names = {"<f8": "double", "u1": "uchar", "<f4": "float"}
-    header = ["ply", "format binary_little_endian 1.0", f"element vertex {POINTS}"]
+    header = ["ply", "format binary_little_endian 1.0", f"element vertex {points}"]
     header += [f"property {names[kind]} {name}" for name, kind in fields] + ["end_header", ""]
-    path.write_bytes("\n".join(header).encode() + points.tobytes())
+    path.write_bytes("\n".join(header).encode() + rows.tobytes())
 
 
 def main():

@@ -29,6 +29,7 @@ RULES = {
     "Anchors": doc_rules.anchors,
     "LinkedNames": doc_rules.linked_names,
     "TableCommands": doc_rules.table_commands,
+    "OldTables": doc_rules.old_tables,
     "Includes": include_rules.includes,
     "KernelOrder": include_rules.kernel_order,
     "ModuleEdges": include_rules.module_edges,

@@ -1,5 +1,6 @@
 """Rules about the documentation. Each gives (path, line, message) for every fault."""
 
+import hashlib
 import os
 import re
 
@@ -84,3 +85,39 @@ def table_commands(files):
                 path = f"Testing/Benchmarks/{script or program.lower() + '.cxx'}"
                 if path not in there:
                     yield file.path, number, f"{path} is not there"
+
+
+# The programs of each table: a line has the first digits of two SHA-256, those of the table's
+# command and of the programs that the command calls. Testing/Benchmarks/tables writes it.
+MADE = "docs/tradeoffs/made.txt"
+# Tables of docs/tradeoffs/curve.csv are compared with it by Whole.Curve; ages are git's.
+MADE_OTHERWISE = ("curve_tables.py", "--ages")
+
+
+def digest(text):
+    return hashlib.sha256(text.encode()).hexdigest()[:12]
+
+
+def programs_of(command):
+    """The files of the programs that a table's command calls, without repetition."""
+    return list(dict.fromkeys(f"Testing/Benchmarks/{script or program.lower() + '.cxx'}"
+                              for script, program in CALLED.findall(command)))
+
+
+def made_line(command, text_of):
+    """The line of MADE for a table that was made by its programs as they are now."""
+    texts = [text_of(path) for path in programs_of(command)]
+    return f"{digest(command)} {digest(''.join(texts))}"
+
+
+def old_tables(files):
+    """A table of numbers is not older than the programs that its command calls."""
+    text = {file.path: "\n".join(file.lines) for file in files}
+    made = text.get(MADE, "").split("\n")
+    for file in files:
+        for number, line in file.numbered() if file.path in MEASURED else ():
+            marked = COMMAND.match(line)
+            if marked and not any(word in marked.group(1) for word in MADE_OTHERWISE) \
+                    and made_line(marked.group(1), lambda path: text.get(path, "")) not in made:
+                yield file.path, number, "a table that is older than the program that makes it: " \
+                    "make it anew by Testing/Benchmarks/tables (or --still), or take it away"

@@ -8,6 +8,7 @@ import shutil
 import sys
 import unittest
 
+import doc_rules
 import quick_tests
 from check_style import RULES
 from source_tree import read_tree
@@ -213,6 +214,15 @@ class RulesTest(unittest.TestCase):
         }
         self.assertEqual(self.faults("TableCommands", tree), [
             ("README.md", 5), ("README.md", 14), ("README.md", 15), ("docs/tradeoffs.md", 6)])
+
+    def test_old_tables(self):
+        rows, end = "| points | ms |\n| --- | --- |\n| 1 M | 2.5 |\n", "<!-- end of table -->\n"
+        command = "Testing/Benchmarks/a.py x"
+        fresh = f"{doc_rules.digest(command)} {doc_rules.digest('print(1)')}"
+        for source, faults in (("print(1)", []), ("print(2)", [("README.md", 1)])):
+            tree = {"README.md": f"<!-- table: {command} -->\n" + rows + end,
+                    "Testing/Benchmarks/a.py": source, doc_rules.MADE: f"{fresh}\n"}
+            self.assertEqual(self.faults("OldTables", tree), faults)
 
     def include_faults(self, path, header):
         known = {

@@ -3,6 +3,7 @@
 import argparse
 import csv
 import hashlib
+import json
 import pathlib
 import re
 import shlex
@@ -15,7 +16,8 @@ from tool import TOOL, ToolTest
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVE = ROOT / "docs/tradeoffs/curve.csv"
 sys.path.insert(0, str(ROOT / "Testing/Benchmarks"))
-import quality_curve  # noqa: E402 (found by the line above)
+import curve_rows  # noqa: E402 (found by the line above)
+import quality_curve  # noqa: E402
 from curve_scenes import scenes  # noqa: E402
 
 TABLE = re.compile(r"<!-- table: (Testing/Benchmarks/curve_tables\.py .+?) -->\n"
@@ -50,7 +52,103 @@ class Rows(ToolTest):
                     self.assertAlmostEqual(now[column], float(row[column]), delta=0.002)
 
 
+class Told(ToolTest):
+    """The tool tells of its pictures what the curve says."""
+
+    def setUp(self):
+        super().setUp()
+        self.store = self.folder / "normals.pfront"
+        self.succeed("build", ROOT / "Testing/Data/autzen_stadium.laz", "-o", self.store,
+                     "--normals", "pca")
+
+    def render(self, *words):
+        stats = self.folder / "stats.json"
+        outcome = self.succeed("render", self.store, "-o", self.folder / "a.png", "--size",
+                               "200x150", "--stats", stats, *words)
+        return json.loads(stats.read_text()), outcome.err
+
+    def test_what_a_picture_is_expected_to_differ_by(self):
+        told, complaint = self.render("--quality", "balanced", "--view", "top")
+        self.assertEqual(complaint, "")
+        self.assertNotIn("quality", told)
+        expected = told["expected"]
+        self.assertEqual(expected["technique"], "blended")
+        self.assertEqual(expected["source"], "docs/tradeoffs.md, 6 scenes")
+        rows = curve_rows.read(CURVE)
+        places = [curve_rows.places(rows, scene, "blended") for scene in curve_rows.scenes_of(rows)]
+        ranges = [[place.mean("psnr") for place in scene
+                   if place.error_px in (expected["error_px"], 0.25, 0.5, 1)] for scene in places]
+        self.assertGreaterEqual(expected["psnr"][0], min(map(min, ranges)) - 0.1)
+        self.assertLessEqual(expected["psnr"][2], max(map(max, ranges)) + 0.1)
+        self.assertEqual(sorted(expected["ssim"]), expected["ssim"])
+        self.assertLessEqual(expected["share_over_8"][2], 1)
+
+    def test_what_was_not_measured_is_not_told(self):
+        for words in (("--technique", "spheres"), ("--error", "40", "--technique", "splats")):
+            told, _ = self.render(*words)
+            self.assertIsNone(told["expected"], words)
+
+    def test_a_number_of_quality_chooses_from_the_curve(self):
+        told, complaint = self.render("--quality", "0.9")
+        chosen = told["quality"]
+        self.assertEqual(chosen["asked"], "0.9")
+        self.assertTrue(chosen["reached"])
+        self.assertGreaterEqual(chosen["ssim"][1], 0.9)
+        self.assertIn(f"render: quality 0.9: {chosen['technique']} at {chosen['error_px']:g} px",
+                      complaint)
+        self.assertEqual(told["expected"]["technique"], chosen["technique"])
+        told, complaint = self.render("--quality", "33ms", "--error", "3")
+        self.assertLessEqual(told["quality"]["frame_ms"][2], 33)
+        self.assertIn("33ms", complaint)
+        told, complaint = self.render("--quality", "0.9999")
+        self.assertFalse(told["quality"]["reached"])
+        self.assertIn("warning: quality 0.9999", complaint)
+
+    def test_an_estimate_of_a_store_before_it_is_built(self):
+        source = ROOT / "Testing/Data/autzen_stadium.laz"
+        estimate = self.succeed("info", source, "--json").json["estimate"]
+        low, high = estimate["store_bytes"]
+        store = self.folder / "plain.pfront"
+        built = self.succeed("build", source, "-o", store, "--json").json
+        self.assertTrue(low <= store.stat().st_size <= high, estimate)
+        self.assertTrue(
+            estimate["build_memory_bytes"][0] / 2 <= built["peak_rss_bytes"]
+            <= estimate["build_memory_bytes"][1], (estimate, built["peak_rss_bytes"]))
+        picture = estimate["complete_picture"]
+        told, _ = self.render("--quality", "balanced")
+        self.assertLessEqual(told["bytes_read"], picture["bytes_read"][1])
+        self.assertIn("a store", self.succeed("info", source).out)
+        text = self.folder / "points.xyz"
+        text.write_text("1 2 3\n2 3 4\n3 4 5\n")
+        self.assertIsNone(self.succeed("info", text, "--json").json["estimate"]["build_seconds"])
+
+
 class Page(unittest.TestCase):
+    def test_the_table_of_the_kernel_is_of_the_curve(self):
+        printed = subprocess.run(
+            [sys.executable, ROOT / "Testing/Benchmarks/curve_source.py", CURVE], text=True,
+            check=True, stdout=subprocess.PIPE).stdout
+        kept = ROOT / "vtkmodule/Core/pointfront/Quality/QualityCurvePlaces.cxx"
+        self.assertEqual(printed, kept.read_text(encoding="utf-8"))
+
+    def test_estimates_are_of_the_page(self):
+        """The constants of StoreEstimate.cxx hold what the tables that they name say."""
+        source = (ROOT / "CommandLine/Query/StoreEstimate.cxx").read_text(encoding="utf-8")
+        constants = {name: [float(low), float(high)] for name, low, high in re.findall(
+            r"Range (\w+)\{ ([\d.e]+), ([\d.e]+) \};", source)}
+        page = (ROOT / "docs/tradeoffs.md").read_text(encoding="utf-8")
+        [row] = re.findall(r"\| build from LAS, from LAZ .*", page)
+        for number, name in enumerate(("lasPointsASecond", "lazPointsASecond")):
+            for las_and_laz in re.findall(r"([\d.]+), ([\d.]+)", row):
+                rate = 1e6 * float(las_and_laz[number])
+                self.assertTrue(constants[name][0] <= rate <= constants[name][1], (name, rate))
+        firsts = re.findall(r"^\|[^|]*\|[^|]*\| software \| (\d+), \d+ \| (\d+),", page,
+                            flags=re.M)
+        self.assertEqual(len(firsts), 3)
+        for milliseconds in (float(value) for row in firsts for value in row):
+            self.assertTrue(constants["firstPictureMs"][0] <= milliseconds
+                            <= constants["firstPictureMs"][1], milliseconds)
+
     def test_tables_are_of_the_curve(self):
         tables = TABLE.findall((ROOT / "docs/tradeoffs.md").read_text(encoding="utf-8"))
         self.assertGreaterEqual(len(tables), 4)

@@ -34,6 +34,13 @@ double vtkPointFrontRepresentation::GetProjectedSpacing()
 }
 
 //------------------------------------------------------------------------------
+std::string vtkPointFrontRepresentation::GetTechniqueDrawn()
+{
+  const bool draws = this->IsDrawing() && this->Mapper->GetLastPointsDrawn() > 0;
+  return draws ? this->Mapper->GetLastTechnique() : std::string();
+}
+
+//------------------------------------------------------------------------------
 vtkIdType vtkPointFrontRepresentation::GetStorePoints()
 {
   return this->IsDrawing() ? this->Mapper->GetStore()->GetNumberOfPoints() : 0;

@@ -2,12 +2,15 @@
 
 #include "StoreFacts.h"
 
+#include "pointfront/Quality/QualityCurve.h"
+
 #include "vtkClientServerStream.h"
 #include "vtkObjectFactory.h"
 #include "vtkPointFrontRepresentation.h"
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -38,6 +41,7 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
   this->Complete = representation->GetFrameComplete();
   this->Outdated = representation->GetFrameOutdated();
   this->Build = representation->GetBuildState();
+  this->Technique = representation->GetTechniqueDrawn();
 }
 
 //------------------------------------------------------------------------------
@@ -57,6 +61,7 @@ void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
     this->Complete = this->Complete && other->Complete;
     this->Outdated = this->Outdated || other->Outdated;
     this->Build = this->Build.empty() ? other->Build : this->Build;
+    this->Technique = this->Technique.empty() ? other->Technique : this->Technique;
   }
 }
 
@@ -68,7 +73,7 @@ void vtkPVPointFrontFrame::CopyToStream(vtkClientServerStream* stream)
           << static_cast<vtkTypeInt64>(this->NodesDrawn) << this->ProjectedSpacing
           << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << this->HostMemoryBudget
           << this->Limits << static_cast<vtkTypeInt64>(this->StorePoints) << this->Build
-          << vtkClientServerStream::End;
+          << this->Technique << vtkClientServerStream::End;
 }
 
 //------------------------------------------------------------------------------
@@ -80,11 +85,12 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   int complete = 1;
   int outdated = 0;
   std::string build;
+  std::string technique;
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
     !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
     !stream->GetArgument(0, 4, &outdated) || !stream->GetArgument(0, 5, &this->HostMemoryBudget) ||
     !stream->GetArgument(0, 6, &this->Limits) || !stream->GetArgument(0, 7, &all) ||
-    !stream->GetArgument(0, 8, &build))
+    !stream->GetArgument(0, 8, &build) || !stream->GetArgument(0, 9, &technique))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");
@@ -96,6 +102,7 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   this->Complete = complete != 0;
   this->Outdated = outdated != 0;
   this->Build = build;
+  this->Technique = technique;
 }
 
 //------------------------------------------------------------------------------
@@ -103,6 +110,21 @@ std::string vtkPVPointFrontFrame::GetPointsInView() const
 {
   return pointfront::groupedDigits(static_cast<std::uint64_t>(this->PointsDrawn)) + " of " +
     pointfront::groupedDigits(static_cast<std::uint64_t>(this->StorePoints));
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFrontFrame::GetExpectedDifference() const
+{
+  const auto expected = pointfront::expectedDifference(this->Technique, this->ProjectedSpacing);
+  if (!expected)
+  {
+    return "not measured";
+  }
+  char numbers[80];
+  std::snprintf(numbers, sizeof numbers, "%.1f to %.1f dB, %.2g to %.2g %% of the pixels off (",
+    expected->psnr.least, expected->psnr.most, 100.0 * expected->off.least,
+    100.0 * expected->off.most);
+  return numbers + this->Technique + "; " + pointfront::curveSource() + ")";
 }
 
 //------------------------------------------------------------------------------
@@ -135,6 +157,7 @@ void vtkPVPointFrontFrame::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "ProjectedSpacing: " << this->ProjectedSpacing << " px\n"
      << indent << "HostMemoryBudget: " << this->HostMemoryBudget << " MiB\n"
      << indent << "LimitedBy: " << this->GetLimitedBy() << "\n"
+     << indent << "ExpectedDifference: " << this->GetExpectedDifference() << "\n"
      << indent << "Complete: " << this->Complete << "\n"
      << indent << "Outdated: " << this->Outdated << "\n";
 }

@@ -42,6 +42,9 @@ public:
   /// the same in words.
   vtkGetMacro(Limits, int);
   std::string GetLimitedBy() const;
+  /// "28.5 to 43.2 dB, 1 to 16 % of the pixels off (blended; docs/tradeoffs.md, 6 scenes)": how far
+  /// such a picture is from the truth. "not measured": for this technique or error.
+  std::string GetExpectedDifference() const;
 
   /// The build whose preview is drawn: "sorting, 43 %"; empty if there is none.
   const std::string& GetBuild() const { return this->Build; }
@@ -63,6 +66,7 @@ private:
   void operator=(const vtkPVPointFrontFrame&) = delete;
 
   vtkIdType PointsDrawn = 0;
+  std::string Technique; ///< vtkPointFrontMapper::GetLastTechnique(), of processes that draw
   vtkIdType StorePoints = 0;
   vtkIdType NodesDrawn = 0;
   double ProjectedSpacing = 0.0;

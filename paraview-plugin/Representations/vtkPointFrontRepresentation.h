@@ -233,6 +233,8 @@ public:
   vtkIdType GetNodesDrawn();
   double GetProjectedSpacing();
   ///@}
+  /// As vtkPointFrontMapper::GetLastTechnique(); empty on a process that draws nothing.
+  std::string GetTechniqueDrawn();
 
   /// Points of the store that is drawn, all of them; 0 on a process that draws nothing.
   vtkIdType GetStorePoints();

@@ -85,6 +85,15 @@ display.PointBudget, display.TargetError = 0, 3.0
 points, error, limit = view()
 print(points, error, limit)
 require(0 < points < POINTS and 0.01 < error < 3.01 and limit == "nothing", limit)
+technique = display.Technique
+for quality, word in (("draft", " dB, "), ("custom", "not measured")):
+    display.Quality = quality
+    display.Technique = "splats" if quality == "draft" else "spheres"
+    view()
+    told = display.SMProxy.GetProperty("ExpectedDifference").GetElement(0)
+    print(told)
+    require(word in told and ("docs/tradeoffs.md" in told) == (quality == "draft"), told)
+display.Technique, display.ClosingSize = technique, 0
 display.TargetError = 0.01
 simple.GetSettingsProxy("PointFrontSettings").HostMemoryBudgetMiB = 1
 points, error, limit = view()

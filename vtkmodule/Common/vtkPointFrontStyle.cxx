@@ -2,7 +2,7 @@
 
 #include "StyleJSON.h"
 
-#include "pointfront/Style/QualityPreset.h"
+#include "pointfront/Quality/QualityChoice.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -123,14 +123,14 @@ std::string vtkPointFrontStyle::GetTechnique(int objectClass) const
 
 bool vtkPointFrontStyle::SetQuality(const std::string& name, int objectClass)
 {
-  const pointfront::QualityPreset* const preset = pointfront::qualityPresetOf(name);
-  if (!preset)
+  const pointfront::Result<pointfront::QualityChoice> choice = pointfront::chooseQuality(name);
+  if (!choice)
   {
-    vtkErrorMacro("'" << name << "' is no quality; use draft, balanced or exact");
+    vtkErrorMacro(<< choice.error().what);
     return false;
   }
   return this->ChangeStyle(
-    objectClass, [preset](pointfront::LayerStyle& style) { preset->applyTo(style); });
+    objectClass, [&choice](pointfront::LayerStyle& style) { choice->preset.applyTo(style); });
 }
 
 bool vtkPointFrontStyle::SetColor(const std::string& color, int objectClass)

@@ -51,8 +51,9 @@ public:
   ///@}
 
   /**
-   * "draft", "balanced" or "exact": technique, blending and accuracy together, from fast to
-   * accurate (vtkPointFrontMapper::SetQuality sets the error that belongs to it as well).
+   * "draft", "balanced" or "exact", an SSIM ("0.95") or milliseconds of a frame ("33ms"):
+   * technique, blending and accuracy together (vtkPointFrontMapper::SetQuality sets the error that
+   * belongs to it as well).
    */
   bool SetQuality(const std::string& name, int objectClass = -1);
 

@@ -3,6 +3,7 @@
 #include "pointfront/Front/FrontDelta.h"
 
 #include <cstdint>
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -24,6 +25,7 @@ struct FrameStatistics
   double frontMilliseconds = 0.0;
   std::int64_t gpuBytes = 0;
   std::int64_t windowGpuBytes = 0; ///< memory of all clouds of the window
+  std::string technique; ///< as MeasuredTechnique says it; empty: not measured
   /// Nothing is missing: no further frame of the same view differs.
   bool complete = false;
   bool limitedByPoints = false; ///< the budget of points, or a frame's time

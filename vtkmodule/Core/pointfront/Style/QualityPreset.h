@@ -26,11 +26,12 @@ struct QualityPreset
   }
 };
 
-/// From the fastest to the most accurate. Source: the tables of Testing/Truth; docs/adr/0016.
+/// From the fastest to the most accurate: places on the curve of docs/tradeoffs.md. The affine
+/// accuracy is nearer to the truth there than the full one at the same error; docs/adr/0016.
 constexpr std::array<QualityPreset, 3> qualityPresets{ {
   { "draft", Technique::Splats, false, SplatAccuracy::Affine, 2.0 },
   { "balanced", Technique::Splats, true, SplatAccuracy::Affine, 1.0 },
-  { "exact", Technique::Ewa, true, SplatAccuracy::Full, 0.5 },
+  { "exact", Technique::Ewa, true, SplatAccuracy::Affine, 0.5 },
 } };
 
 /// Null for another name.

@@ -5,6 +5,8 @@ import os
 import pathlib
 import time
 
+import numpy
+
 _CLICK_BUTTONS = {"left": 1, "middle": 2, "right": 3, "wheel up": 4, "wheel down": 5}
 
 
@@ -26,6 +28,14 @@ class _Request(ctypes.Structure):
 class _Notification(ctypes.Structure):
     _fields_ = [*_HEAD, *((name, ctypes.c_ulong) for name in
                           ("requestor", "selection", "target", "property", "time"))]
+
+
+class _Image(ctypes.Structure):
+    _fields_ = [*((name, ctypes.c_int) for name in ("width", "height", "xoffset", "format")),
+                ("data", ctypes.c_void_p),
+                *((name, ctypes.c_int) for name in (
+                    "byte_order", "bitmap_unit", "bitmap_bit_order", "bitmap_pad", "depth",
+                    "bytes_per_line", "bits_per_pixel"))]
 
 
 class _Event(ctypes.Union):
@@ -65,6 +75,9 @@ def _library(name):
             ("XChangeProperty", ctypes.c_int,
              [ctypes.c_void_p, *[ctypes.c_ulong] * 3, *[ctypes.c_int] * 2, ctypes.c_char_p,
               ctypes.c_int]),
+            ("XGetImage", ctypes.POINTER(_Image),
+             [ctypes.c_void_p, ctypes.c_ulong, *[ctypes.c_int] * 2, *[ctypes.c_uint] * 2,
+              ctypes.c_ulong, ctypes.c_int]),
             ("XCloseDisplay", ctypes.c_int, [ctypes.c_void_p]),
             ("XTestFakeMotionEvent", ctypes.c_int,
              [ctypes.c_void_p, *[ctypes.c_int] * 3, ctypes.c_ulong]),
@@ -121,6 +134,19 @@ class Hands:
 
     def _sync(self):
         self.x11.XSync(self.display, 0)
+
+    def seen(self, width, height):
+        """Returns what the screen shows of the window, its texts, too: height by width by 3."""
+        every_plane, by_pixels = ctypes.c_ulong(-1).value, 2
+        image = self.x11.XGetImage(self.display, self.window, 0, 0, width, height, every_plane,
+                                   by_pixels)
+        if not image or image.contents.bits_per_pixel != 32:
+            raise RuntimeError("the X server gives no picture of 32 bits a pixel")
+        rows = ctypes.string_at(image.contents.data, height * image.contents.bytes_per_line)
+        self.x11.XFree(image.contents.data)
+        self.x11.XFree(image)
+        pixels = numpy.frombuffer(rows, numpy.uint8).reshape(height, -1, 4)
+        return pixels[:, :width, 2::-1]
 
     def move(self, x, y):
         self.test.XTestFakeMotionEvent(self.display, -1, self.corner[0] + x, self.corner[1] + y, 0)

@@ -4,13 +4,14 @@ import json
 import math
 import os
 import pathlib
+import shutil
 import time
 import unittest
 
 import numpy
-from pictures import read_png
+from pictures import read_png, write_png
 from tool import ToolTest, write_las
-from windows import CENTRE, SIZE, Window, WindowTest, share_of_difference
+from windows import CENTRE, PATIENCE, SIZE, Window, WindowTest, share_of_difference
 
 
 class Walk(WindowTest):
@@ -45,7 +46,8 @@ class Walk(WindowTest):
         looked = window.camera()
         numpy.testing.assert_allclose(looked["position"], panned["position"], atol=1e-6)
         self.assertNotEqual(looked["focal_point"], panned["focal_point"])
-        window.hands.press("b")  # saved last: the same
+        window.hands.drag((300, 240), (340, 240))
+        window.hands.press("b")  # to what was saved last
         self.assertEqual(window.camera(), looked)
         window.hands.press("r")
         self.assertEqual(window.camera(), begin)
@@ -59,14 +61,19 @@ class Walk(WindowTest):
         window = self.open()
         begin = window.camera()
         sight = numpy.subtract(begin["focal_point"], begin["position"])
-        for key, sign in (("w", 1.0), ("s", -1.0)):
+        forward = sight / numpy.linalg.norm(sight)
+        right = numpy.cross(forward, begin["view_up"])
+        right /= numpy.linalg.norm(right)
+        up = numpy.cross(right, forward)
+        for key, towards in (("w", forward), ("s", -forward), ("d", right), ("a", -right),
+                             ("Prior", up), ("Next", -up)):
             window.hands.hold(key, True)
             time.sleep(0.5)
             window.hands.hold(key, False)
             flown = window.camera()
             way = numpy.subtract(flown["position"], begin["position"])
-            along = way.dot(sight) / numpy.linalg.norm(sight)
-            self.assertGreater(sign * along, 0.02 * numpy.linalg.norm(sight), key)
+            along = way.dot(towards)
+            self.assertGreater(along, 0.02 * numpy.linalg.norm(sight), key)
             self.assertAlmostEqual(numpy.linalg.norm(way), abs(along), delta=1e-3)
             time.sleep(0.3)
             self.assertEqual(window.camera(), flown, "it flies on")
@@ -75,7 +82,8 @@ class Walk(WindowTest):
 
     def test_keys_look_from_all_sides(self):
         window = self.open()
-        for key, view in (("2", "top"), ("3", "front"), ("6", "right"), ("1", "iso")):
+        for key, view in (("2", "top"), ("3", "front"), ("4", "back"), ("5", "left"),
+                          ("6", "right"), ("1", "iso")):
             window.hands.press(key)
             picture = window.picture()
             rendered = self.folder / "view.png"
@@ -108,6 +116,35 @@ class Walk(WindowTest):
         window.hands.press("f")
         self.assertEqual(share_of_difference(window.picture(), plain), 0.0)
         window.hands.press("Escape")
+        self.assertEqual(window.end(), (0, ""))
+
+    def shown(self, window, act=lambda: None):
+        """Returns what the screen shows at rest after that, above the name of a saved picture."""
+        act()
+        window.picture()
+        last, end = None, time.monotonic() + PATIENCE
+        while last is None or share_of_difference(last, window.hands.seen(*SIZE)) > 0.0:
+            self.assertLess(time.monotonic(), end, "the window does not come to rest")
+            last = window.hands.seen(*SIZE)
+            time.sleep(0.3)
+        return last[:-40]
+
+    def test_help_facts_and_classes_are_seen(self):
+        """Texts of many characters over the picture, gone when their key comes again."""
+        window = self.open()
+        plain = self.shown(window)
+        self.assertEqual(share_of_difference(plain, window.picture()[:-40]), 0.0)
+        for key, least in (("question", 0.05), ("f", 0.003), ("k", 0.001)):
+            text = self.shown(window, lambda: window.hands.press(key))
+            write_png(self.folder / f"{key}.png", text)
+            if kept := os.environ.get("POINTFRONT_SCREENSHOTS"):
+                shutil.copy(self.folder / f"{key}.png", kept)
+            self.assertGreater(share_of_difference(text, plain), least, key)
+            again = self.shown(window, lambda: window.hands.press(key))
+            self.assertEqual(share_of_difference(again, plain), 0.0, key)
+        self.shown(window, lambda: window.hands.press("question"))
+        window.hands.press("Escape")
+        self.assertEqual(share_of_difference(self.shown(window), plain), 0.0)
         self.assertEqual(window.end(), (0, ""))
 
     def test_a_window_at_rest_sleeps(self):

@@ -3,6 +3,7 @@
 #include "BenchCommand.h"
 #include "BuildCommand.h"
 #include "CacheCommand.h"
+#include "CollectionCommand.h"
 #include "CompareCommand.h"
 #include "ExportCommand.h"
 #include "FarOptions.h"
@@ -91,12 +92,13 @@ Program::Program()
   commands_.push_back(std::make_unique<ServeCommand>());
   commands_.push_back(std::make_unique<StreamCommand>());
   commands_.push_back(std::make_unique<CacheCommand>());
+  commands_.push_back(std::make_unique<CollectionCommand>());
   for (const auto& command : commands_)
   {
     command->declare(app_);
   }
   for (const char* const reader :
-    { "build", "info", "verify", "export", "render", "bench", "view", "stream" })
+    { "build", "info", "verify", "export", "render", "bench", "view", "stream", "collection" })
   {
     declareFarOptions(*app_.get_subcommand(reader));
   }

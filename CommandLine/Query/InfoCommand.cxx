@@ -27,7 +27,8 @@ namespace
 bool namedLikeStore(const std::string& path)
 {
   const std::string extension = std::filesystem::path(path).extension().string();
-  return extension == ".pfront" || extension == ".pfindex" || extension == ".pfronts";
+  return extension == ".pfront" || extension == ".pfindex" || extension == ".pfronts" ||
+    extension == ".pfcollection";
 }
 
 /// The hierarchy of a point file that has one: COPC, EPT.
@@ -112,7 +113,7 @@ Result<void> InfoCommand::run()
   options_.scan.memoryBytes = static_cast<std::size_t>(memoryBytes_);
   const SourceFormats formats;
   std::vector<std::string> extensions = formats.extensions();
-  extensions.insert(extensions.end(), { "pfront", "pfindex" });
+  extensions.insert(extensions.end(), { "pfront", "pfindex", "pfcollection" });
   const auto holdsPoints = [&formats](const std::string& path)
   { return formats.mayHoldPoints(path); };
   std::vector<Error> faults;

@@ -16,10 +16,11 @@
  * vtkPointFrontMapper give them.
  * An aborted update leaves an empty output.
  *
- * Besides stores it opens everything that the process knows as a stored cloud: lists (`.pfronts`)
- * and folders of stores as one cloud, and, with PointFront::IOLASIndex, indices of LAS files, COPC
- * files, EPTs (`ept.json`) and folders of LAS and LAZ files at a glance. A WarningEvent tells what
- * differs among the parts of a cloud, and what is left out.
+ * Besides stores it opens everything that the process knows as a stored cloud: lists
+ * (`.pfronts`), collections (`.pfcollection`) and folders of stores as one cloud, and, with
+ * PointFront::IOLASIndex, indices of LAS files, COPC files, EPTs (`ept.json`) and folders of LAS
+ * and LAZ files at a glance. A WarningEvent tells what differs among the parts of a cloud, and what
+ * is left out.
  *
  * A name may be an address: "https://host/city.pfront", "s3://bucket/key". Messages, PrintSelf()
  * and the name that travels the pipeline are without what is secret in it. docs/user/remote.md says

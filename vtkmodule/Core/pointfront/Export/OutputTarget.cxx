@@ -45,6 +45,10 @@ FileKind kindOfText(std::string_view text)
 
 FileKind kindOf(const std::string& path)
 {
+  if (PointStore::looksLikeCollection(path))
+  {
+    return FileKind::Collection;
+  }
   if (PointStore::looksLikeStore(path))
   {
     return FileKind::Store;
@@ -81,6 +85,8 @@ const char* nameOf(FileKind kind)
       return "a store";
     case FileKind::SideFile:
       return "an index";
+    case FileKind::Collection:
+      return "a collection";
     case FileKind::LAS:
       return "a LAS or LAZ file";
     case FileKind::COPC:
@@ -124,7 +130,8 @@ FileKind kindOfName(const std::string& path)
   constexpr Ending endings[] = { { ".las", FileKind::LAS }, { ".laz", FileKind::LAS },
     { ".ply", FileKind::PLY }, { ".pcd", FileKind::PCD }, { ".csv", FileKind::Text },
     { ".xyz", FileKind::Text }, { ".txt", FileKind::Text }, { ".png", FileKind::Picture },
-    { ".pfront", FileKind::Store }, { ".pfindex", FileKind::SideFile } };
+    { ".pfront", FileKind::Store }, { ".pfindex", FileKind::SideFile },
+    { ".pfcollection", FileKind::Collection } };
   for (const Ending& ending : endings)
   {
     if (endsWith(path, ending.text))
@@ -148,13 +155,18 @@ Result<void> checkName(const OutputTarget& target)
     return refusal(target, "would be COPC; let the name end in .copc.laz");
   }
   const FileKind named = kindOfName(target.path);
-  const bool cloud = target.kind == FileKind::Store || target.kind == FileKind::SideFile;
+  const bool collection = target.kind == FileKind::Collection;
+  const bool cloud =
+    target.kind == FileKind::Store || target.kind == FileKind::SideFile || collection;
   const bool index = target.kind == FileKind::SideFile && named == FileKind::Store; // drawn alike
   if (cloud && !index && named != FileKind::Other && named != target.kind)
   {
     return refusal(target,
       std::string("is named as ") + nameOf(named) + " and would be " + nameOf(target.kind) +
-        "; let the name end in " + (target.kind == FileKind::Store ? ".pfront" : ".pfindex"));
+        "; let the name end in " +
+        (target.kind == FileKind::Store ? ".pfront"
+            : collection                ? ".pfcollection"
+                                        : ".pfindex"));
   }
   return {};
 }

@@ -14,6 +14,7 @@ enum class FileKind
 {
   Store,
   SideFile,
+  Collection,
   LAS, ///< LAZ too, and COPC where a file is there already
   COPC, ///< a target
   PLY,

@@ -12,8 +12,7 @@ namespace pointfront
 /// point of the next one. The hierarchy has at least one node.
 inline NodeIndex nodeOfPoint(const Hierarchy& hierarchy, std::uint64_t id)
 {
-  NodeIndex low = 0;
-  NodeIndex behind = hierarchy.nodeCount();
+  auto [low, behind] = hierarchy.nodesAround(id);
   while (behind - low > 1)
   {
     const NodeIndex middle = low + (behind - low) / 2;

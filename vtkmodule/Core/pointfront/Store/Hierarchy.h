@@ -118,6 +118,13 @@ public:
     found = childOf(parent, row, child);
     return RowState::Here;
   }
+  /// Some nodes, from the first to before the second, among which is the last whose first point is
+  /// `point` or one before it: all, or fewer where rows of others are better left alone.
+  virtual std::pair<NodeIndex, NodeIndex> nodesAround(std::uint64_t point) const
+  {
+    static_cast<void>(point);
+    return { 0, nodeCount() };
+  }
   /// The rows that peek() was asked for and that are not in memory.
   virtual MissingRows* missingRows() const { return nullptr; }
   /// Grows when rows that were coming are here, or lost.

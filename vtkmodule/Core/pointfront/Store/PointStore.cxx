@@ -2,6 +2,7 @@
 
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Disk/HeldBytes.h"
+#include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodePage.h"
 #include "pointfront/Store/PreviewRecord.h"
@@ -10,6 +11,7 @@
 #include "pointfront/Store/StoreVerification.h"
 
 #include <algorithm>
+#include <cstring>
 #include <numeric>
 
 namespace pointfront
@@ -188,6 +190,31 @@ bool PointStore::looksLikePreview(const std::string& path)
   return store && previewRecordOf((*store)->description().metadata);
 }
 
+bool PointStore::looksLikeCollection(const std::string& path)
+{
+  std::byte bytes[storeHeaderBytes] = {};
+  const std::string begin = beginningOf(path, storeHeaderBytes);
+  std::memcpy(bytes, begin.data(), std::min(begin.size(), storeHeaderBytes));
+  std::uint32_t features = 0;
+  std::memcpy(&features, bytes + storeMagic.size() + sizeof(std::uint32_t), sizeof features);
+  return std::memcmp(bytes, storeMagic.data(), storeMagic.size()) == 0 &&
+    (features & headsOfCollection) != 0;
+}
+
+Result<std::shared_ptr<const PointStore>> PointStore::openHeads(const std::string& path)
+{
+  auto store = openTables(path);
+  if (!store)
+  {
+    return store.error();
+  }
+  if (!(*store)->content_->isCollection)
+  {
+    return makeError(Error::Kind::BadFormat, "'" + path + "' is a store, not a collection");
+  }
+  return std::shared_ptr<const PointStore>(std::move(*store));
+}
+
 Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& path)
 {
   auto store = openTables(path);
@@ -196,6 +223,12 @@ Result<std::shared_ptr<const PointStore>> PointStore::open(const std::string& pa
     return store.error();
   }
   Content& content = *(*store)->content_;
+  if (content.isCollection)
+  {
+    return makeError(Error::Kind::Unsupported,
+      "'" + path +
+        "' is a collection of tiles, not a store; commands that draw and export take it");
+  }
   const auto preview = previewRecordOf(content.description.metadata);
   const bool running = !preview || content.file->isLocked();
   content.description.wholeCount = preview ? preview->pointsExpected : 0;
@@ -261,6 +294,11 @@ Result<std::shared_ptr<PointStore>> PointStore::openTables(const std::string& pa
   content.description.version = header.version;
   content.description.fileBytes = header.fileBytes;
   content.description.pointCount = footer.pointCount;
+  content.isCollection = (header.requiredFeatures & headsOfCollection) != 0;
+  if (content.isCollection != (collectionRecordIn(content.description.metadata) != nullptr))
+  {
+    return corruptStore(path, header.footerOffset, "it is half a collection");
+  }
   content.gridBounds = stored->gridBounds;
   content.hierarchy = std::move(*table);
   content.directory = std::move(*directory);

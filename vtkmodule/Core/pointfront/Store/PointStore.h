@@ -9,6 +9,8 @@
 namespace pointfront
 {
 
+struct EncodedNode;
+
 /// A `.pfront` file, open for reading. The format: docs/formats/pfront.md.
 /// Threads    all functions are safe from any thread (positional reads, no shared cursor).
 /// Errors     open: NotFound, Unreadable, BadFormat (not a store), Unsupported (a newer version, or
@@ -19,7 +21,13 @@ class PointStore final : public StoredCloud
 public:
   /// A preview (PreviewRecord.h) opens while its build runs, and stays readable after it; that of a
   /// killed build is Truncated.
+  /// Errors  Unsupported, too, for a collection: its points are heads of tiles.
   static Result<std::shared_ptr<const PointStore>> open(const std::string& path);
+  /// The heads in a collection's file, as the store that they are.
+  /// Errors  BadFormat, too, for a store that is none.
+  static Result<std::shared_ptr<const PointStore>> openHeads(const std::string& path);
+  /// True if the file begins like a collection of any version. Cheap, silent.
+  static bool looksLikeCollection(const std::string& path);
   /// True for the preview of a build, whether it still runs or was killed. Silent.
   static bool looksLikePreview(const std::string& path);
   /// True if the file begins like a store of any version. Cheap, silent.
@@ -42,6 +50,10 @@ public:
 
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
     std::uint32_t component, NodeIndex most = noNode) const override;
+  /// The payload of a node as it lies here, to be appended to another store of the same schema; the
+  /// caller knows its bounds and ranges.
+  /// Errors  those of fetch(); Corrupt.
+  Result<EncodedNode> encodedNode(NodeIndex node) const;
 
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 

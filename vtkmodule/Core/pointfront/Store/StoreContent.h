@@ -24,6 +24,7 @@ struct PointStore::Content
   std::shared_ptr<const Hierarchy> hierarchy;
   std::unique_ptr<const PayloadDirectory> directory; ///< reads from `file`
   std::optional<NodeRangesFile> ranges;
+  bool isCollection = false; ///< the points are heads of tiles
   std::optional<PayloadElsewhere> elsewhere;
   std::shared_ptr<const ByteSource> fileElsewhere; ///< with `elsewhere`, unless only looked at
 

@@ -67,7 +67,7 @@ Result<void> checkHeader(
         ", this program reads up to version " + std::to_string(storeVersion) +
         "; update PointFront");
   }
-  if ((header.requiredFeatures & ~payloadElsewhere) != 0)
+  if ((header.requiredFeatures & ~(payloadElsewhere | headsOfCollection)) != 0)
   {
     return makeError(Error::Kind::Unsupported,
       "'" + path + "' uses features that this program does not know (flags " +
@@ -100,6 +100,14 @@ const SectionEntry* StoreFooter::find(SectionKind kind) const
   const auto found = std::find_if(sections.begin(), sections.end(),
     [kind](const SectionEntry& section) { return section.kind == kind; });
   return found == sections.end() ? nullptr : &*found;
+}
+
+const MetadataRecord* collectionRecordIn(const std::vector<MetadataRecord>& metadata)
+{
+  const auto found = std::find_if(metadata.begin(), metadata.end(),
+    [](const MetadataRecord& record)
+    { return record.owner == collectionOwner && record.id == collectionId; });
+  return found == metadata.end() ? nullptr : &*found;
 }
 
 Error corruptStore(const std::string& path, std::uint64_t offset, const std::string& what)

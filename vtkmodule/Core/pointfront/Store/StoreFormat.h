@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Points/PointSource.h"
 
 #include <array>
 #include <cstddef>
@@ -36,6 +37,9 @@ enum class SectionKind : std::uint32_t
 /// Required feature: the payload of some nodes lies in another file (see NodePayload::elsewhere).
 /// Previews of a build have it: they name the store being written.
 constexpr std::uint32_t payloadElsewhere = 1;
+/// Required feature: the points are only the heads of a collection's tiles, which a metadata record
+/// names (Tiles/CollectionRecord.h). Who reads stores alone must not take them for all.
+constexpr std::uint32_t headsOfCollection = 2;
 
 /// Where a section lies and what it must hash to (since version 2 only the description and the name
 /// of another file: the others are read in parts, which have checksums of their own, and 0 stands
@@ -53,7 +57,7 @@ struct SectionEntry
 struct StoreHeader
 {
   std::uint32_t version = storeVersion;
-  std::uint32_t requiredFeatures = 0; ///< bits a reader must know: payloadElsewhere or none
+  std::uint32_t requiredFeatures = 0; ///< bits a reader must know: those above
   std::uint64_t fileBytes = 0;
   std::uint64_t footerOffset = 0;
   std::uint32_t footerBytes = 0;
@@ -79,6 +83,11 @@ Result<StoreHeader> decodeHeader(
 /// Also checks that the sections that a store needs are there and lie between header and footer.
 Result<StoreFooter> decodeFooter(
   const std::byte* data, const StoreHeader& header, const std::string& path);
+
+/// The metadata record that names the tiles of a collection; null: there is none.
+constexpr const char* collectionOwner = "pointfront";
+constexpr std::uint16_t collectionId = 2;
+const MetadataRecord* collectionRecordIn(const std::vector<MetadataRecord>& metadata);
 
 /// "'x.pfront' is damaged: <what> (byte <offset>); <advice>".
 Error corruptStore(const std::string& path, std::uint64_t offset, const std::string& what);

@@ -101,6 +101,7 @@ private:
   std::string nameElsewhere_; // empty: all payloads are in this file
   std::string nameMeanwhile_;
   std::uint64_t bytesElsewhere_ = 0;
+  std::uint32_t features_ = 0; // the bits of the header that the description asks for
 };
 
 void FileStoreWriter::refer(WrittenPayloads elsewhere)
@@ -297,6 +298,7 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
     return directory.error();
   }
   const StoredDescription stored = describe(description, nodes, roots);
+  features_ = collectionRecordIn(description.metadata) != nullptr ? headsOfCollection : 0;
   StoreFooter footer;
   footer.pointCount = originalPointsOf(nodes, description.refinement);
   footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
@@ -340,7 +342,7 @@ Result<void> FileStoreWriter::finish(const StoreFooter& footer)
   header.footerOffset = end_;
   header.footerBytes = static_cast<std::uint32_t>(footerBytes.size());
   header.fileBytes = end_ + footerBytes.size();
-  header.requiredFeatures = nameElsewhere_.empty() ? 0 : payloadElsewhere;
+  header.requiredFeatures = (nameElsewhere_.empty() ? 0 : payloadElsewhere) | features_;
   Result<void> done = put(footerBytes);
   if (done)
   {

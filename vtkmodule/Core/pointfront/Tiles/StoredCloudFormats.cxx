@@ -2,6 +2,7 @@
 
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Tiles/CollectionCloud.h"
 #include "pointfront/Tiles/TileFormat.h"
 
 #include <algorithm>
@@ -44,6 +45,7 @@ StoredCloudFormats& StoredCloudFormats::ofProcess()
 
 StoredCloudFormats::StoredCloudFormats()
 {
+  formats_.push_back(std::make_shared<CollectionFormat>()); // before stores: it is one besides
   formats_.push_back(std::make_shared<StoreFile>());
   formats_.push_back(std::make_shared<TileFormat>());
 }

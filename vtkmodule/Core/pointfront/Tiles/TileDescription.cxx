@@ -174,19 +174,6 @@ std::vector<TilePlacing> chooseGrid(StoreDescription& whole, const Tiles& tiles)
   return placings;
 }
 
-std::string projectionOf(const StoreDescription& store)
-{
-  std::string text = store.crsWkt;
-  for (const MetadataRecord& record : store.metadata)
-  {
-    if (store.crsWkt.empty() && record.owner == "LASF_Projection")
-    {
-      text.append(reinterpret_cast<const char*>(record.payload.data()), record.payload.size());
-    }
-  }
-  return text;
-}
-
 void compareSystems(StoreDescription& whole, const Tiles& tiles)
 {
   std::string known;
@@ -285,6 +272,19 @@ std::vector<std::vector<std::uint16_t>> addLayers(StoreDescription& whole, const
   return own;
 }
 } // namespace
+
+std::string projectionOf(const StoreDescription& store)
+{
+  std::string text = store.crsWkt;
+  for (const MetadataRecord& record : store.metadata)
+  {
+    if (store.crsWkt.empty() && record.owner == "LASF_Projection")
+    {
+      text.append(reinterpret_cast<const char*>(record.payload.data()), record.payload.size());
+    }
+  }
+  return text;
+}
 
 Result<TileDescription> TileDescription::of(
   const std::string& path, const Tiles& tiles, std::vector<std::string> warnings)

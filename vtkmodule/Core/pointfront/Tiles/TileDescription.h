@@ -33,4 +33,8 @@ struct TileDescription
     const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings);
 };
 
+/// A cloud's word about its coordinate reference system: WKT, or the bytes of LAS records; empty:
+/// nothing.
+std::string projectionOf(const StoreDescription& store);
+
 } // namespace pointfront

@@ -4,10 +4,9 @@
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Tiles/NodeParts.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 #include "pointfront/Tiles/TileRanges.h"
-
-#include <sys/resource.h>
 
 #include <algorithm>
 #include <map>
@@ -16,64 +15,6 @@
 
 namespace pointfront
 {
-namespace
-{
-/// Each tile holds a file open for reading.
-void raiseOpenFiles(std::size_t tiles)
-{
-  constexpr rlim_t others = 256;
-  rlimit limit = {};
-  const rlim_t wanted = static_cast<rlim_t>(2 * tiles) + others; // an index has two files
-  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < wanted)
-  {
-    limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(wanted, limit.rlim_max);
-    ::setrlimit(RLIMIT_NOFILE, &limit); // where it is refused, open() says so
-  }
-}
-
-/// Points `begin` to `end` of a node; no more memory than they take.
-NodeColumns sliced(
-  const NodeColumns& node, std::size_t begin, std::size_t end, const AttributeSchema& schema)
-{
-  NodeColumns part;
-  part.origin = node.origin;
-  part.selection = node.selection;
-  const auto at = [](const auto& values, std::size_t place)
-  { return values.begin() + static_cast<std::ptrdiff_t>(place); };
-  part.positions.assign(at(node.positions, begin), at(node.positions, end));
-  for (std::size_t c = 0; c < node.columns.size(); ++c)
-  {
-    const std::size_t bytes = schema[node.selection[c]].bytes();
-    const std::vector<std::byte>& values = node.columns[c];
-    part.columns.emplace_back(at(values, begin * bytes), at(values, end * bytes));
-  }
-  return part;
-}
-
-/// Which component of which column of the whole; of coordinates the axis alone.
-struct WholeComponent
-{
-  std::uint32_t column = 0;
-  std::uint32_t component = 0;
-  const Attribute* attribute = nullptr; ///< null: a coordinate
-
-  static WholeComponent of(std::uint32_t number, const AttributeSchema& schema)
-  {
-    if (number < coordinateComponents)
-    {
-      return { 0, number, nullptr };
-    }
-    std::uint32_t left = number - coordinateComponents;
-    std::uint32_t column = 0;
-    for (; left >= schema[column].components; ++column)
-    {
-      left -= static_cast<std::uint32_t>(schema[column].components);
-    }
-    return { column, left, &schema[column] };
-  }
-};
-} // namespace
-
 Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   const std::string& path, const std::vector<std::string>& files, std::vector<std::string> warnings)
 {

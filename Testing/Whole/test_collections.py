@@ -1,0 +1,220 @@
+"""Collections: thousands of tiles as one file, changed tile by tile, whatever happens meanwhile."""
+
+import json
+import os
+import random
+import resource
+import signal
+import subprocess
+import time
+import unittest
+
+from tool import SLOWNESS, TOOL, ToolTest
+
+KILLS = int(os.environ.get("POINTFRONT_KILLS", "60" if SLOWNESS == 1 else "10"))
+SIDE = 4  # tiles beside each other
+
+
+class Collections(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.city = self.folder / "city.pfcollection"
+        (self.folder / "tiles").mkdir()
+
+    def tile(self, number, points=3000, folder="tiles", lift=0.0):
+        """A store of 100 m by 100 m at its place in a square of tiles."""
+        rows = []
+        draw = random.Random(number)
+        x, y = 100.0 * (number % SIDE), 100.0 * (number // SIDE)
+        for _ in range(points):
+            rows.append(f"{x + 100 * draw.random():.3f} {y + 100 * draw.random():.3f} "
+                        f"{lift + draw.random():.3f}")
+        text = self.folder / f"{number}.xyz"
+        text.write_text("\n".join(rows))
+        store = self.folder / folder / f"tile_{number}.pfront"
+        store.parent.mkdir(exist_ok=True)
+        self.succeed("build", text, "-o", store, "--force", "--progress", "none")
+        text.unlink()
+        return store
+
+    def collection(self, *arguments, **options):
+        done = self.succeed("collection", *arguments, "--json", **options)
+        return done.json
+
+    def names(self):
+        return sorted(tile["name"] for tile in self.collection("list", self.city)["tiles"])
+
+    def test_is_one_cloud_for_every_command(self):
+        stores = [self.tile(number) for number in range(8)]
+        made = self.collection("create", self.city, self.folder / "tiles")
+        self.assertEqual((made["tiles"], made["points"], made["state"]), (8, 24000, 1))
+        told = self.succeed("info", self.city, "--json").json
+        self.assertEqual((told["points"], told["structure"]), (24000, "collection"))
+        self.assertTrue(self.succeed("verify", self.city, "--json").json["ok"])
+        self.assertTrue(self.collection("verify", self.city)["ok"])
+        for source in (self.city, self.folder / "tiles"):
+            self.succeed("export", source, "-o", self.folder / f"{source.name}.xyz",
+                         "--box", "50,50,-10,250,150,10")
+        one, other = (sorted((self.folder / f"{name}.xyz").read_text().split("\n"))
+                      for name in (self.city.name, "tiles"))
+        self.assertEqual(one, other)
+        self.assertGreater(len(one), 3000)
+        view = ("--view", "top", "--size", "300x200", "--technique", "points", "--point-size", "2")
+        self.succeed("render", self.city, "-o", self.folder / "a.png", *view)
+        self.succeed("render", self.folder / "tiles", "-o", self.folder / "b.png", *view)
+        alike = self.succeed("compare", self.folder / "a.png", self.folder / "b.png", "--json").json
+        self.assertGreater(alike["psnr"], 40, alike)
+        bench = self.folder / "bench.json"
+        self.succeed("bench", self.city, "--path", "zoom", "--frames", "20", "--stats", bench)
+        self.assertGreater(json.loads(bench.read_text())["points_drawn"]["max"], 1000)
+        self.assertEqual(len(stores), 8)
+
+    def test_a_far_view_reads_no_tile(self):
+        for number in range(12):
+            self.tile(number)
+        self.collection("create", self.city, self.folder / "tiles")
+        os.rename(self.folder / "tiles", self.folder / "elsewhere")
+        picture = self.folder / "far.png"
+        self.succeed("render", self.city, "-o", picture, "--view", "top", "--size", "32x24")
+        near = self.refuse(1, "render", self.city, "-o", self.folder / "near.png", "--view", "top",
+                           "--size", "1200x900", "--technique", "points")
+        self.assertIn("tile_", near.err)
+        self.assertFalse((self.folder / "near.png").exists())
+
+    def test_a_replaced_tile_is_one_error_until_it_is_taken_in(self):
+        for number in range(3):
+            self.tile(number)
+        self.collection("create", self.city, self.folder / "tiles")
+        corrected = self.tile(1, 3500, lift=5.0)
+        said = self.refuse(1, "export", self.city, "-o", self.folder / "x.xyz")
+        self.assertIn("tile_1.pfront", said.err)
+        self.assertIn("has been replaced", said.err)
+        self.refuse(1, "collection", "verify", self.city)
+        self.assertEqual(self.collection("replace", self.city, corrected)["points"], 9500)
+        self.assertTrue(self.collection("verify", self.city)["ok"])
+        self.refuse(1, "collection", "undo", self.city)  # that file is gone
+        self.assertEqual(self.names(), ["tile_0", "tile_1", "tile_2"])
+
+    def test_changes_and_their_history(self):
+        tiles = [self.tile(number) for number in range(5)]
+        self.collection("create", self.city, *tiles[:3], "--epoch", "2019")
+        self.collection("add", self.city, tiles[3])
+        named = self.tile(9, folder="new")
+        self.collection("replace", self.city, named, "--name", "tile_0")
+        self.collection("remove", self.city, "tile_1", self.folder / "tiles/tile_2.pfront")
+        listed = self.collection("list", self.city)
+        self.assertEqual(self.names(), ["tile_0", "tile_3"])
+        self.assertEqual(listed["history"], ["add 1 tile", "replace 1 tile", "remove 2 tiles"])
+        first = next(tile for tile in listed["tiles"] if tile["name"] == "tile_0")
+        self.assertEqual((first["address"], first["epoch"]), ("new/tile_9.pfront", "2019"))
+        for expected in (["tile_0", "tile_1", "tile_2", "tile_3"],) * 2 + (
+                ["tile_0", "tile_1", "tile_2"],):
+            self.collection("undo", self.city)
+            self.assertEqual(self.names(), expected)
+        self.refuse(1, "collection", "undo", self.city)
+        self.collection("add", self.city, tiles[4])
+        self.collection("compact", self.city)
+        self.assertEqual(self.collection("list", self.city)["history"], [])
+        self.assertEqual(len(self.names()), 4)
+        self.assertTrue(self.succeed("verify", self.city, "--json").json["ok"])
+
+    def test_words_that_cannot_be_meant(self):
+        store = self.tile(0)
+        for arguments in (("create", self.city), ("list", self.city, store), ("mend", self.city),
+                          ("add", self.city, store, "--force"),
+                          ("create", self.city, store, "--name", "a"),
+                          ("remove", self.city, "tile_0", "--epoch", "2020")):
+            self.refuse(2, "collection", *arguments)
+        self.refuse(1, "collection", "create", self.folder / "city.pfront", store)
+        self.refuse(1, "collection", "add", store, store)
+        self.refuse(1, "collection", "list", self.folder / "none.pfcollection")
+        self.collection("create", self.city, store)
+        self.refuse(1, "collection", "create", self.city, store)
+        self.collection("create", self.city, store, "--force")
+        self.refuse(1, "build", self.folder / "tiles", "-o", self.city, "--force")
+
+    def test_other_systems_are_refused(self):
+        here = self.folder / "here.pfront"
+        self.succeed("generate", "--points", 2000, "-o", self.folder / "a.las")
+        for name, code in (("here", 25832), ("there", 25833)):
+            self.succeed("build", self.folder / "a.las", "-o", self.folder / f"{name}.pfront",
+                         "--assume-crs", f"EPSG:{code}")
+        said = self.refuse(1, "collection", "create", self.city, here,
+                           self.folder / "there.pfront")
+        self.assertIn("another coordinate reference system", said.err)
+        self.assertFalse(self.city.exists())
+
+    def test_a_full_disk_leaves_the_state_before(self):
+        tiles = [self.tile(number) for number in range(4)]
+        self.collection("create", self.city, *tiles[:3])
+        before = self.city.read_bytes()
+        soft = resource.getrlimit(resource.RLIMIT_FSIZE)
+        for allowed in (0, 100, 4096, 20000, len(before) // 2, len(before) - 1):
+            for words in (("add", self.city, tiles[3]), ("remove", self.city, "tile_0"),
+                          ("compact", self.city)):
+                done = subprocess.run(
+                    [TOOL, "collection", *map(str, words), "--progress", "none"],
+                    capture_output=True, timeout=240, check=False,
+                    preexec_fn=lambda limit=allowed: resource.setrlimit(
+                        resource.RLIMIT_FSIZE, (limit, soft[1])))
+                if done.returncode == 0:  # fewer tiles take fewer bytes
+                    self.assertEqual(words[0], "remove")
+                    self.city.write_bytes(before)
+                    continue
+                self.assertEqual(done.returncode, 1, (words, done.stderr))
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertEqual(self.city.read_bytes(), before)
+                self.assertEqual(self.entries(), ["city.pfcollection", "tiles"])
+
+    def test_kills_at_random_moments(self):
+        tiles = [self.tile(number, points=1000) for number in range(6)]
+        self.collection("create", self.city, *tiles[:5])
+        begin = time.monotonic()
+        self.collection("add", self.city, tiles[5])
+        whole = time.monotonic() - begin
+        seed = random.randrange(1 << 30)
+        draw = random.Random(seed)
+        killed = 0
+        for number in range(KILLS):
+            state = self.collection("list", self.city)
+            there = {tile["name"] for tile in state["tiles"]}
+            add = "tile_5" not in there
+            words = ("add", self.city, tiles[5]) if add else ("remove", self.city, "tile_5")
+            process = subprocess.Popen([TOOL, "collection", *map(str, words)],
+                                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            time.sleep(draw.uniform(0.0, 1.2 * whole))
+            process.send_signal(signal.SIGKILL)
+            killed += process.wait() == -signal.SIGKILL
+            now = self.collection("list", self.city)
+            changed = {tile["name"] for tile in now["tiles"]} ^ there
+            with self.subTest(seed=seed, number=number):
+                self.assertEqual(now["state"] - state["state"], 1 if changed else 0)
+                self.assertLessEqual(changed, {"tile_5"})
+                if number % 20 == 0:
+                    self.assertTrue(self.succeed("verify", self.city, "--json").json["ok"])
+        self.assertGreater(killed, KILLS // 10)
+        self.assertTrue(self.succeed("verify", self.city, "--json").json["ok"])
+        self.collection("remove" if "tile_5" in self.names() else "add", self.city,
+                        "tile_5" if "tile_5" in self.names() else tiles[5])
+        self.assertEqual(self.entries(), ["city.pfcollection", "tiles"])  # no left-overs
+
+    def test_two_writers_do_not_lose_a_change(self):
+        tiles = [self.tile(number, points=500) for number in range(9)]
+        self.collection("create", self.city, tiles[0])
+        writers = [subprocess.Popen([TOOL, "collection", "add", str(self.city), str(tile)],
+                                    stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+                   for tile in tiles[1:]]
+        done = 0
+        for writer in writers:
+            _, said = writer.communicate()
+            done += writer.returncode == 0
+            if writer.returncode != 0:
+                self.assertEqual(writer.returncode, 1)
+                self.assertIn(b"another process is writing", said)
+        self.assertEqual(len(self.names()), 1 + done)
+        self.assertEqual(self.collection("list", self.city)["state"], 1 + done)
+        self.assertGreaterEqual(done, 1)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

@@ -1,0 +1,352 @@
+#include "pointfront/Collection/CollectionWriter.h"
+
+#include "pointfront/Collection/CollectionState.h"
+#include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Tiles/CollectionCloud.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+/// A state to begin with, and the file that the next one goes to. As long as the file is there
+/// nobody else begins.
+struct Begun
+{
+  std::unique_ptr<OutputFile> file;
+  std::shared_ptr<const PointStore> heads;
+  std::shared_ptr<const CollectionRecord> record;
+};
+
+Result<Begun> begin(const std::string& path)
+{
+  if (isAddress(path))
+  {
+    return makeError(Error::Kind::Unsupported,
+      path + ": a collection behind an address cannot be changed; change a file and upload that");
+  }
+  Begun begun;
+  if (!PointStore::looksLikeCollection(path)) // before a file is made beside what is none
+  {
+    const auto there = PointStore::openHeads(path);
+    return there ? makeError(Error::Kind::BadFormat, "'" + path + "' is no collection")
+                 : there.error();
+  }
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path);
+  if (!file)
+  {
+    return file.error();
+  }
+  begun.file = std::move(*file);
+  // Now nobody else replaces it.
+  Result<std::shared_ptr<const PointStore>> heads = PointStore::openHeads(path);
+  if (!heads)
+  {
+    return heads.error();
+  }
+  begun.heads = std::move(*heads);
+  Result<std::shared_ptr<const CollectionRecord>> record = CollectionCloud::recordOf(*begun.heads);
+  if (!record)
+  {
+    return record.error();
+  }
+  begun.record = std::move(*record);
+  return begun;
+}
+
+std::string counted(const char* verb, std::size_t tiles)
+{
+  return std::string(verb) + " " + std::to_string(tiles) + (tiles == 1 ? " tile" : " tiles");
+}
+
+/// Names are unique; a plain name that another tile has becomes the tile's address.
+Result<void> nameApart(
+  const std::string& path, const std::vector<TileName>& kept, std::vector<IncomingTile>& added)
+{
+  std::set<std::string> names;
+  std::set<std::string> addresses;
+  for (const TileName& tile : kept)
+  {
+    names.insert(tile.name);
+    addresses.insert(tile.address);
+  }
+  for (IncomingTile& tile : added)
+  {
+    if (!addresses.insert(tile.is.address).second)
+    {
+      return makeError(Error::Kind::BadArgument,
+        path + ": has the tile '" + tile.is.address +
+          "' already; take a new file of it in with: pointfront collection replace");
+    }
+    if (!names.insert(tile.is.name).second)
+    {
+      tile.is.name = tile.is.address;
+      if (!names.insert(tile.is.name).second)
+      {
+        return makeError(
+          Error::Kind::BadArgument, path + ": has a tile of the name '" + tile.is.name + "'");
+      }
+    }
+  }
+  return {};
+}
+
+struct Change
+{
+  std::vector<TileName> removed;
+  std::vector<TileRequest> requests;
+  std::string what;
+  bool undoes = false;
+};
+
+Result<CollectionReport> apply(
+  const std::string& path, Begun begun, Change change, const CollectionOptions& options)
+{
+  std::unordered_set<std::uint32_t> removed;
+  for (const TileName& tile : change.removed)
+  {
+    removed.insert(tile.id);
+  }
+  std::vector<TileName> kept;
+  for (const CollectedTile& tile : begun.record->tiles)
+  {
+    if (removed.count(tile.is.id) == 0)
+    {
+      kept.push_back(tile.is);
+    }
+  }
+  Result<std::vector<IncomingTile>> added = openTiles(path, change.requests, options.progress);
+  if (!added)
+  {
+    return added.error();
+  }
+  Result<void> fits = nameApart(path, kept, *added);
+  const std::string system = kept.empty() ? "" : projectionOf(begun.record->whole);
+  fits = fits ? checkSystems(path, *added, system, options.sameSystem) : fits;
+  if (!fits)
+  {
+    return fits.error();
+  }
+  CollectionState state(path, begun.heads, begun.record);
+  const std::size_t count = added->size();
+  const std::uint32_t firstId = begun.record->nextId;
+  CollectionRecord& next = state.record();
+  if (change.undoes)
+  {
+    next.history.pop_back();
+  }
+  else
+  {
+    CollectionChange entry{ change.what, {}, change.removed };
+    for (std::size_t i = 0; i < count; ++i)
+    {
+      entry.added.push_back(firstId + static_cast<std::uint32_t>(i));
+    }
+    next.history.push_back(std::move(entry));
+  }
+  if (Result<void> done = state.change(removed, std::move(*added), options); !done)
+  {
+    return done.error();
+  }
+  Result<CollectionReport> report = state.write(std::move(begun.file));
+  if (report)
+  {
+    report->added = count;
+    report->removed = removed.size();
+  }
+  return report;
+}
+
+/// A tile that the collection knew: to be opened again, and to be what it was.
+TileRequest again(const std::string& path, const TileName& tile)
+{
+  return { beside(path, tile.address), tile.name, tile.epoch, tile.id, tile.identity };
+}
+} // namespace
+
+Result<CollectionReport> createCollection(
+  const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
+{
+  if (isAddress(path))
+  {
+    return makeError(Error::Kind::Unsupported,
+      path + ": a collection is written to a file; upload that when it is done");
+  }
+  Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path);
+  if (!file)
+  {
+    return file.error();
+  }
+  Result<std::vector<IncomingTile>> opened = openTiles(path, tiles, options.progress);
+  if (!opened)
+  {
+    return opened.error();
+  }
+  Result<void> fits = nameApart(path, {}, *opened);
+  fits = fits ? checkSystems(path, *opened, "", options.sameSystem) : fits;
+  if (!fits)
+  {
+    return fits.error();
+  }
+  const std::size_t count = opened->size();
+  CollectionState state(path, nullptr, nullptr);
+  if (Result<void> done = state.change({}, std::move(*opened), options); !done)
+  {
+    return done.error();
+  }
+  Result<CollectionReport> report = state.write(std::move(*file));
+  if (report)
+  {
+    report->added = count;
+  }
+  return report;
+}
+
+Result<CollectionReport> addTiles(
+  const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
+{
+  Result<Begun> begun = begin(path);
+  return begun
+    ? apply(path, std::move(*begun), { {}, tiles, counted("add", tiles.size()), false }, options)
+    : begun.error();
+}
+
+Result<CollectionReport> replaceTiles(
+  const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
+{
+  Result<Begun> begun = begin(path);
+  if (!begun)
+  {
+    return begun.error();
+  }
+  Change change{ {}, tiles, counted("replace", tiles.size()), false };
+  for (TileRequest& request : change.requests)
+  {
+    const std::string name = request.name.empty() ? tileNameOf(request.path) : request.name;
+    const std::string address = relativeAddress(path, request.path);
+    const auto& known = begun->record->tiles;
+    auto found = std::find_if(known.begin(), known.end(),
+      [&](const CollectedTile& tile) { return tile.is.address == address; });
+    found = found != known.end()
+      ? found
+      : std::find_if(known.begin(), known.end(),
+          [&](const CollectedTile& tile) { return tile.is.name == name; });
+    if (found == known.end())
+    {
+      return makeError(Error::Kind::NotFound,
+        path + ": has no tile '" + name +
+          "' that this one could replace; name that tile with --name, or take it in as another: "
+          "pointfront collection add");
+    }
+    request.name = found->is.name;
+    request.epoch = request.epoch.empty() ? found->is.epoch : request.epoch;
+    const std::uint32_t id = found->is.id;
+    if (std::any_of(change.removed.begin(), change.removed.end(),
+          [id](const TileName& tile) { return tile.id == id; }))
+    {
+      return makeError(Error::Kind::BadArgument,
+        path + ": two files would replace the tile '" + found->is.name + "'");
+    }
+    change.removed.push_back(found->is);
+  }
+  return apply(path, std::move(*begun), std::move(change), options);
+}
+
+Result<CollectionReport> removeTiles(
+  const std::string& path, const std::vector<std::string>& names, const CollectionOptions& options)
+{
+  Result<Begun> begun = begin(path);
+  if (!begun)
+  {
+    return begun.error();
+  }
+  Change change{ {}, {}, "", false };
+  std::map<std::string, const TileName*> known;
+  for (const CollectedTile& tile : begun->record->tiles)
+  {
+    known.emplace(tile.is.address, &tile.is);
+  }
+  for (const CollectedTile& tile : begun->record->tiles)
+  {
+    known[tile.is.name] = &tile.is;
+  }
+  std::set<std::uint32_t> ids;
+  for (const std::string& name : names)
+  {
+    auto found = known.find(name);
+    found = found == known.end() ? known.find(relativeAddress(path, name)) : found;
+    if (found == known.end())
+    {
+      return makeError(Error::Kind::NotFound,
+        path + ": has no tile '" + name + "'; pointfront collection list names those it has");
+    }
+    if (ids.insert(found->second->id).second)
+    {
+      change.removed.push_back(*found->second);
+    }
+  }
+  change.what = counted("remove", change.removed.size());
+  return apply(path, std::move(*begun), std::move(change), options);
+}
+
+Result<CollectionReport> undoCollection(const std::string& path, const CollectionOptions& options)
+{
+  Result<Begun> begun = begin(path);
+  if (!begun)
+  {
+    return begun.error();
+  }
+  if (begun->record->history.empty())
+  {
+    return makeError(Error::Kind::BadArgument,
+      path + ": there is nothing to undo: it is as it was created, or as compact left it");
+  }
+  const CollectionChange& last = begun->record->history.back();
+  Change change{ {}, {}, "", true };
+  for (const CollectedTile& tile : begun->record->tiles)
+  {
+    if (std::find(last.added.begin(), last.added.end(), tile.is.id) != last.added.end())
+    {
+      change.removed.push_back(tile.is);
+    }
+  }
+  for (const TileName& tile : last.removed)
+  {
+    change.requests.push_back(again(path, tile));
+  }
+  return apply(path, std::move(*begun), std::move(change), options);
+}
+
+Result<CollectionReport> compactCollection(
+  const std::string& path, const CollectionOptions& options)
+{
+  Result<Begun> begun = begin(path);
+  if (!begun)
+  {
+    return begun.error();
+  }
+  std::vector<TileRequest> requests;
+  for (const CollectedTile& tile : begun->record->tiles)
+  {
+    requests.push_back(again(path, tile.is));
+  }
+  Result<std::vector<IncomingTile>> opened = openTiles(path, requests, options.progress);
+  if (!opened)
+  {
+    return opened.error();
+  }
+  CollectionState state(path, nullptr, nullptr);
+  state.record().state = begun->record->state;
+  state.record().nextId = begun->record->nextId;
+  if (Result<void> done = state.change({}, std::move(*opened), options); !done)
+  {
+    return done.error();
+  }
+  return state.write(std::move(begun->file));
+}
+
+} // namespace pointfront

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pointfront/Collection/HeadTree.h"
+#include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoreWriter.h"
+
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The trees of heads as the node table of a store, and their payloads.
+class HeadTable
+{
+public:
+  /// `layers` are those of the roots.
+  HeadTable(const std::vector<const HeadItem*>& roots, const std::vector<std::uint16_t>& layers);
+
+  /// Appends the payloads: of stored points as they lie in the state `before`, of others coded now.
+  /// Errors  those of reading and writing; Unsupported: the tiles lie too far apart for their grid.
+  Result<void> append(StoreWriter& writer, const AttributeSchema& schema, const PointStore* before,
+    const std::string& path);
+
+  const std::vector<Node>& rows() const { return rows_; }
+  const std::vector<NodeIndex>& roots() const { return roots_; }
+  const std::vector<StoreWriter::PayloadId>& payloads() const { return payloads_; }
+  std::uint64_t points() const;
+  /// The record's part about the nodes; after append(). Leaves name tiles by their place in
+  /// `tiles`.
+  std::vector<HeadNode> facts(const std::vector<CollectedTile>& tiles) const;
+
+private:
+  void describeRow(NodeIndex node, double areaAbove, double pointsAbove);
+
+  std::vector<const HeadItem*> items_; ///< by node
+  std::vector<Node> rows_;
+  std::vector<NodeIndex> roots_;
+  std::vector<StoreWriter::PayloadId> payloads_;
+  std::vector<HeadNode> facts_;
+};
+
+} // namespace pointfront

@@ -1,0 +1,320 @@
+#include "pointfront/Collection/TileIntake.h"
+
+#include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/StopOfReads.h"
+#include "pointfront/Disk/TemporaryFile.h"
+#include "pointfront/Store/DescriptionSection.h"
+#include "pointfront/Store/PreviewRecord.h"
+#include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Tiles/NodeParts.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <filesystem>
+#include <mutex>
+#include <numeric>
+#include <utility>
+
+namespace pointfront
+{
+namespace fs = std::filesystem;
+
+namespace
+{
+/// The reason why a cloud cannot be a tile; empty: it can.
+std::string refusalOf(const StoredCloud& cloud)
+{
+  const StoreDescription& is = cloud.description();
+  if (is.structure == "collection" || is.structure == "tiles")
+  {
+    return "is made of tiles itself; name those";
+  }
+  if (previewRecordOf(is.metadata))
+  {
+    return "is the preview of a build; wait for its end";
+  }
+  if (is.refinement != Refinement::Add)
+  {
+    return "has representatives (--refinement replace), which a collection does not take; build it "
+           "with --refinement add";
+  }
+  return is.pointCount == 0 || cloud.hierarchy()->roots().empty() ? "has no points" : "";
+}
+
+Result<IncomingTile> openTile(const std::string& collection, const TileRequest& request)
+{
+  Result<std::shared_ptr<const StoredCloud>> cloud =
+    StoredCloudFormats::ofProcess().open(request.path);
+  if (!cloud)
+  {
+    return cloud.error();
+  }
+  if (const std::string why = refusalOf(**cloud); !why.empty())
+  {
+    return makeError(Error::Kind::BadArgument, "'" + request.path + "' " + why);
+  }
+  const Result<TileIdentity> identity = TileIdentity::of((*cloud)->files().front());
+  if (!identity)
+  {
+    return identity.error();
+  }
+  if (request.identity && !(*request.identity == *identity))
+  {
+    return makeError(Error::Kind::Unreadable,
+      "'" + request.path +
+        "' is not the file any more that the collection knows; put that back, "
+        "or take this one in: pointfront collection replace");
+  }
+  TileName is{ request.id, relativeAddress(collection, request.path),
+    request.name.empty() ? tileNameOf(request.path) : request.name, request.epoch, *identity };
+  return IncomingTile{ std::move(is), std::move(*cloud) };
+}
+
+/// Told at most ten times a second, from one thread at a time.
+class OpeningProgress
+{
+public:
+  OpeningProgress(const ProgressFunction& progress, std::size_t tiles)
+    : progress_(progress)
+    , tiles_(tiles)
+  {
+  }
+  /// False: the user wants to stop.
+  bool opened()
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    ++done_;
+    const auto now = std::chrono::steady_clock::now();
+    if (progress_ && !stopped_ && now - told_ > std::chrono::milliseconds(100))
+    {
+      told_ = now;
+      const double part = static_cast<double>(done_) / static_cast<double>(tiles_);
+      stopped_ = !progress_({ "opening tiles", done_, tiles_, 0.5 * part,
+        std::chrono::duration<double>(now - begin_).count() });
+    }
+    return !stopped_;
+  }
+  bool stopped() const { return stopped_; }
+
+private:
+  const ProgressFunction& progress_;
+  const std::size_t tiles_;
+  const std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::mutex mutex_;
+  std::size_t done_ = 0;
+  std::chrono::steady_clock::time_point told_ = begin_;
+  std::atomic<bool> stopped_{ false };
+};
+} // namespace
+
+std::string relativeAddress(const std::string& collection, const std::string& path)
+{
+  if (isAddress(path))
+  {
+    return publicForm(path);
+  }
+  std::error_code failure;
+  const fs::path folder = fs::absolute(folderOf(collection), failure).lexically_normal();
+  const fs::path tile = fs::absolute(path, failure).lexically_normal();
+  const fs::path relative = tile.lexically_relative(folder);
+  return relative.empty() ? tile.string() : relative.string();
+}
+
+std::string tileNameOf(const std::string& path)
+{
+  std::string name = fileNameOf(path);
+  if (name == "ept.json")
+  {
+    name = fileNameOf(path.substr(0, path.rfind('/')));
+  }
+  for (const char* const ending : { ".copc.laz", ".pfront", ".pfindex", ".laz", ".las" })
+  {
+    const std::string_view end(ending);
+    if (name.size() > end.size() && name.compare(name.size() - end.size(), end.size(), end) == 0)
+    {
+      return name.substr(0, name.size() - end.size());
+    }
+  }
+  return name;
+}
+
+Result<std::vector<IncomingTile>> openTiles(const std::string& collection,
+  const std::vector<TileRequest>& requests, const ProgressFunction& progress)
+{
+  raiseOpenFiles(requests.size());
+  std::vector<Result<IncomingTile>> opened(
+    requests.size(), makeError(Error::Kind::Cancelled, "cancelled"));
+  const std::function<bool()> stopped = StopOfReads::carry();
+  OpeningProgress display(progress, requests.size());
+  ThreadCrew::ofProcess().run(requests.size(),
+    [&](std::size_t i, unsigned)
+    {
+      const StopOfReads stop(stopped);
+      if (!display.stopped())
+      {
+        opened[i] = openTile(collection, requests[i]);
+        static_cast<void>(display.opened());
+      }
+    });
+  constexpr std::size_t mostNamed = 3;
+  std::vector<IncomingTile> tiles;
+  std::string faults;
+  std::size_t faulty = 0;
+  const Error* first = nullptr;
+  for (Result<IncomingTile>& tile : opened)
+  {
+    if (tile)
+    {
+      tiles.push_back(std::move(*tile));
+    }
+    else if (tile.error().kind == Error::Kind::Cancelled)
+    {
+      return tile.error();
+    }
+    else
+    {
+      first = first == nullptr ? &tile.error() : first;
+      faults += ++faulty > mostNamed ? "" : (faults.empty() ? "" : "; ") + tile.error().what;
+    }
+  }
+  if (faulty > 0)
+  {
+    return makeError(first->kind,
+      collection + ": " + std::to_string(faulty) + " of " + std::to_string(requests.size()) +
+        " tiles cannot be taken in: " + faults + (faulty > mostNamed ? "; and others" : ""));
+  }
+  return tiles;
+}
+
+Result<void> checkSystems(const std::string& collection, const std::vector<IncomingTile>& tiles,
+  const std::string& known, const SameSystem& same)
+{
+  std::string first = known;
+  std::string firstOf = "the collection";
+  std::string equal; // another text of the same system
+  for (const IncomingTile& tile : tiles)
+  {
+    const StoreDescription& is = tile.cloud->description();
+    const std::string system = projectionOf(is);
+    if (system.empty() || system == first || system == equal)
+    {
+      continue;
+    }
+    if (first.empty())
+    {
+      first = system;
+      firstOf = "'" + is.path + "'";
+    }
+    else if (same && same(first, system))
+    {
+      equal = system;
+    }
+    else
+    {
+      return makeError(Error::Kind::BadArgument,
+        collection + ": '" + is.path + "' names another coordinate reference system than " +
+          firstOf + "; a collection has one: build the tile with --crs, or leave it out");
+    }
+  }
+  return {};
+}
+
+CollectedTile IncomingTile::facts(std::vector<StoreDescription>& kinds) const
+{
+  const StoreDescription& own = cloud->description();
+  CollectedTile tile;
+  tile.is = is;
+  tile.grid = own.grid;
+  tile.bounds = own.bounds;
+  tile.pointCount = own.pointCount;
+  tile.wholeCount = own.wholeCount;
+  tile.fileBytes = own.fileBytes;
+  tile.levels = own.levels;
+  StoreDescription kind = own;
+  kind.path.clear();
+  kind.warnings.clear();
+  kind.grid = QuantisationGrid();
+  kind.levels = 0;
+  kind.metadata.erase(std::remove_if(kind.metadata.begin(), kind.metadata.end(),
+                        [](const auto& record) { return record.owner != "LASF_Projection"; }),
+    kind.metadata.end());
+  for (ColumnRange& range : kind.ranges)
+  {
+    for (std::array<double, 2>& ends : range.components)
+    {
+      tile.ranges.push_back(std::exchange(ends, { 0.0, 0.0 }));
+    }
+  }
+  for (Layer& layer : kind.layers)
+  {
+    tile.layers.emplace_back(std::exchange(layer.pointCount, 0), std::exchange(layer.nodeCount, 0));
+  }
+  const auto same = [&](const StoreDescription& known)
+  {
+    return known.version == kind.version && known.rangesAreSampled == kind.rangesAreSampled &&
+      known.computed == kind.computed &&
+      encodeDescription({ known, {}, {} }) == encodeDescription({ kind, {}, {} });
+  };
+  auto found = std::find_if(kinds.begin(), kinds.end(), same);
+  if (found == kinds.end())
+  {
+    found = kinds.insert(kinds.end(), std::move(kind));
+  }
+  tile.kind = static_cast<std::uint32_t>(found - kinds.begin());
+  const Hierarchy& table = *cloud->hierarchy();
+  tile.nodes = table.nodeCount();
+  const Node last = table.node(tile.nodes - 1);
+  tile.ownPoints = last.firstPoint + last.pointCount;
+  for (const NodeIndex root : table.roots())
+  {
+    tile.roots.push_back({ root, table.node(root), 0 });
+  }
+  return tile;
+}
+
+void chooseHeads(CollectedTile& tile, const HeadSizes& sizes)
+{
+  constexpr double fewest = 16.0;
+  for (TileRoot& root : tile.roots)
+  {
+    const double part =
+      static_cast<double>(root.row.pointsBelow) / static_cast<double>(tile.pointCount);
+    const auto share = static_cast<std::uint32_t>(std::max(fewest, part * sizes.ofTile));
+    root.head = std::min(share, root.row.pointCount / 2);
+  }
+}
+
+Result<std::vector<TileHead>> readHeads(const IncomingTile& tile,
+  const std::vector<TileRoot>& roots, const TileDescription::Part& part,
+  const AttributeSchema& whole)
+{
+  ColumnSelection all(whole.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::vector<TileHead> heads;
+  for (std::size_t r = 0; r < roots.size(); ++r)
+  {
+    Result<NodeColumns> node = tile.cloud->read(roots[r].node, part.columns.own(all));
+    if (!node)
+    {
+      return node.error();
+    }
+    NodeColumns head = sliced(*node, 0, roots[r].head, tile.cloud->description().schema);
+    part.columns.adapt(head, all, whole);
+    if (Result<void> placed = part.placing.place(head, tile.cloud->description().path); !placed)
+    {
+      return placed.error();
+    }
+    auto leaf = std::make_unique<HeadItem>();
+    leaf->leaf = true;
+    leaf->tile = tile.is.id;
+    leaf->root = static_cast<std::uint32_t>(r);
+    leaf->row = roots[r].row;
+    leaf->box = roots[r].row.box();
+    heads.push_back({ std::move(leaf), HeadPoints::of(head, whole, tile.is.id), 0 });
+  }
+  return heads;
+}
+
+} // namespace pointfront

@@ -1,0 +1,58 @@
+#pragma once
+
+#include "pointfront/Store/GridBounds.h"
+#include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Tiles/CollectedTile.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pointfront
+{
+
+/// A node of the tree of heads: some tiles' points, or one root of a tile, which has none here.
+struct HeadNode
+{
+  std::optional<std::pair<std::uint32_t, std::uint32_t>> root; ///< tile and which of its roots
+  GridBounds bounds; ///< bounds and ranges of the points, not of a root
+  std::vector<ColumnRange> ranges;
+};
+
+/// A change of the set of tiles, as it is undone.
+struct CollectionChange
+{
+  std::string what; ///< "add 3 tiles"
+  std::vector<std::uint32_t> added; ///< ids
+  std::vector<TileName> removed;
+};
+
+/// All that a collection's file holds besides the heads' points.
+/// Format  docs/formats/pfcollection.md
+struct CollectionRecord
+{
+  std::uint64_t state = 0; ///< grows by one with each change
+  std::uint32_t nextId = 1;
+  StoreDescription whole; ///< all tiles together; its path is empty
+  std::vector<StoreDescription> kinds; ///< facts that tiles share: schema, system, layers ...
+  std::vector<CollectedTile> tiles;
+  std::vector<HeadNode> heads; ///< in the order of the node table
+  std::vector<CollectionChange> history; ///< oldest first, since the last compact
+
+  /// A description as that of the open tile, with `path`.
+  StoreDescription description(std::size_t tile, const std::string& path) const;
+
+  std::vector<std::byte> encode() const;
+  /// Nothing: the bytes contradict themselves, or each other. A record of a newer version gives a
+  /// record without tiles and its version.
+  static std::optional<CollectionRecord> decode(const std::byte* data, std::size_t size);
+  std::uint32_t version = newest;
+  static constexpr std::uint32_t newest = 1;
+};
+
+/// The column of the heads' store, behind those of the whole, with the id of each point's tile.
+constexpr const char* tileColumn = "pointfront:tile";
+
+} // namespace pointfront

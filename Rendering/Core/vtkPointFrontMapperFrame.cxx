@@ -251,7 +251,10 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
   pointfront::PlanRequest request = this->GetRequest(renderer, actor, look);
   if (moved || !view.Plan)
   {
-    request.refines = look.inHostMemory || look.shading; // else VTK's template draws it
+    // VTK's template draws plain points. The GPU has the nodes of batches alone: where children
+    // take their parents' places, those that stand in for them are not among these.
+    const bool replaces = view.View.front()->refinement() == pointfront::Refinement::Replace;
+    request.refines = look.inHostMemory || (look.shading && !replaces);
     request.moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
     request.moment.duration = 1e-3 * this->GrowthTime;
     view.Plan = view.View.plan(this->GetStore()->GetStore()->description(), std::move(request));

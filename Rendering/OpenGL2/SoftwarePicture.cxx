@@ -72,11 +72,14 @@ RasterStatistics SoftwarePicture::draw(
 void SoftwarePicture::numberPoints(const FramePlan& plan)
 {
   std::unordered_map<NodeIndex, std::uint64_t> firstPoints;
-  for (const DrawBatch& batch : plan.batches)
+  for (const std::vector<DrawBatch>* const batches : { &plan.batches, &plan.standIns })
   {
-    for (const PlanItem& item : batch.items)
+    for (const DrawBatch& batch : *batches)
     {
-      firstPoints[item.node->node] = item.node->firstPoint;
+      for (const PlanItem& item : batch.items)
+      {
+        firstPoints[item.node->node] = item.node->firstPoint;
+      }
     }
   }
   ids_.reserve(2 * last_->points.size());

@@ -255,7 +255,7 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
     each = last.has(each->first) ? std::next(each) : lastStandIns.erase(each);
   }
   const bool keeps = asked.keepsVisible && !asked.exchange && drawing.known && !target.keepPoints;
-  if (asked.batches.empty() && keeps)
+  if (asked.batches.empty() && asked.standIns.empty() && keeps)
   {
     fits ? target.reset(PixelRectangle()) : void();
     return {}; // other stores have the whole budget for a frame: the next one goes on

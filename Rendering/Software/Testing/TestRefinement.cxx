@@ -27,6 +27,7 @@ constexpr double mostDrawnAgain = 1.1; ///< times the points of the complete pic
 /// Once as it comes, by what is nearest at that time, and once more when all is there.
 constexpr double mostBlendedAgain = 2.15;
 constexpr double mostDrawnGrowing = 2.5; ///< likewise: what grows has another size in each frame
+constexpr double mostMeansGrowing = 3.2; ///< likewise: all points of a node grow
 #if defined(__SANITIZE_THREAD__)
 // As many nodes and frames, with a sixth of the points: coarse nodes leave more holes.
 constexpr double leastCovered = 0.9;
@@ -43,6 +44,15 @@ std::shared_ptr<const PointStore> refiningTown()
 {
   static const std::string path = builtStore("refinement-" + std::to_string(getpid()),
     std::make_unique<TerrainSource>(townPoints, 11), nodesOf(townNodePoints));
+  return openedStore(path);
+}
+
+std::shared_ptr<const PointStore> refiningMeans()
+{
+  BuildOptions options = nodesOf(townNodePoints);
+  options.refinement = Refinement::Replace;
+  static const std::string path = builtStore(
+    "means-" + std::to_string(getpid()), std::make_unique<TerrainSource>(townPoints, 11), options);
   return openedStore(path);
 }
 
@@ -145,7 +155,7 @@ double coverageOf(const RefiningStyle& style)
 
 /// In each frame, and at the end; what was seen goes into the report.
 void expectCoveredAndAsAtOneGo(
-  const SlowView& view, const SeenFrames& seen, const RefiningStyle& style)
+  const SlowView& view, const SeenFrames& seen, const RefiningStyle& style, bool means = false)
 {
   const double covered = seen.leastCovered(view.target);
   EXPECT_GE(covered, coverageOf(style));
@@ -153,7 +163,7 @@ void expectCoveredAndAsAtOneGo(
   testing::Test::RecordProperty("drawn_per_point", std::to_string(seen.drawnPerPoint()));
   testing::Test::RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
   testing::Test::RecordProperty("least_covered", std::to_string(covered));
-  SlowView atOnce(refiningTown(), refiningSheet(style));
+  SlowView atOnce(means ? refiningMeans() : refiningTown(), refiningSheet(style));
   atOnce.demand = view.demand;
   atOnce.frame(true);
   EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
@@ -191,6 +201,30 @@ TEST_P(RefiningView, OfViewSpecificDetailDrawsNothingTwice)
   EXPECT_LE(seen.drawnPerPoint(), mostDrawnAgain) << seen.frames << " frames";
   EXPECT_LE(seen.blendedPerPoint(), mostBlendedAgain) << seen.frames << " frames";
   expectCoveredAndAsAtOneGo(view, seen, GetParam());
+}
+
+/// Where children replace their parents, the coarse ones of these are the stand-ins.
+TEST_P(RefiningView, OfATreeOfMeansDrawsNothingTwice)
+{
+  if (GetParam().size != SplatSize::Mode::Spacing)
+  {
+    return; // only what closes the surface goes on there
+  }
+  const std::shared_ptr<const PointStore> store = refiningMeans();
+  ASSERT_TRUE(store);
+  SlowView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
+  for (const double growthStep : { 0.0, 0.05 })
+  {
+    SlowView view(store, refiningSheet(GetParam()));
+    view.growthStep = growthStep;
+    const SeenFrames seen = refine(view);
+    ASSERT_TRUE(view.isComplete());
+    EXPECT_GE(seen.gained, 3);
+    EXPECT_LE(seen.drawnPerPoint(), growthStep > 0.0 ? mostMeansGrowing : mostDrawnAgain)
+      << seen.frames << " frames";
+    EXPECT_LE(seen.blendedPerPoint(), growthStep > 0.0 ? mostMeansGrowing + 1.0 : mostBlendedAgain);
+    expectCoveredAndAsAtOneGo(view, seen, GetParam(), true);
+  }
 }
 
 /// As windows show it: what arrives grows (SMOOTH-6). What grows is drawn each time; what has grown

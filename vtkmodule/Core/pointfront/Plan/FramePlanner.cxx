@@ -87,12 +87,23 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   return item;
 }
 
+bool allClose(const std::vector<LayerStyles>& layers)
+{
+  return std::all_of(layers.begin(), layers.end(),
+    [](const LayerStyles& styles)
+    {
+      return std::all_of(styles.begin(), styles.end(),
+        [](const auto& style) { return style->size.mode == SplatSize::Mode::Spacing; });
+    });
+}
+
 /// The nodes of the complete view, for a refining view (FramePlan::refining); null: for any other.
 const ExpectedNodes* expectedOf(const ViewFront& front, const PlanRequest& request)
 {
   const ExpectedNodes* const expected = front.expected();
+  // Where children take their parent's place, it stands in for them: splats that close the surface.
   const bool usable = request.refines && !request.exchange && expected && expected->points() > 0 &&
-    front.refinement() == Refinement::Add;
+    (front.refinement() == Refinement::Add || allClose(request.styles));
   const FrontDelta& last = front.last();
   // Its nodes may all be there and still grow.
   const bool grows = request.growth && !request.growth->whole() && expected &&
@@ -164,6 +175,12 @@ Bounds placeOf(const NodeColumns& node, const QuantisationGrid& grid)
   return { low, low + 2.0 * glm::dvec3(node.halfSize) };
 }
 
+bool ofNode(const std::vector<TabledNode>& nodes, NodeIndex node)
+{
+  return std::binary_search(nodes.begin(), nodes.end(), TabledNode{ { node }, {} },
+    [](const TabledNode& a, const TabledNode& b) { return a.item.node < b.item.node; });
+}
+
 /// Those that have a style.
 LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
   const QuantisationGrid& grid, double spacingPx, const ExpectedNodes* expected)
@@ -183,6 +200,11 @@ LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
   if (expected)
   {
     standIns.emplace(*expected);
+    for (const TabledNode& replaced : expected->replaced())
+    {
+      const std::shared_ptr<const NodeColumns> node = front.find(replaced.item.node);
+      shows(node) ? standIns->noteWhole(node, replaced) : void();
+    }
   }
   for (const DrawItem& item : front.last().draw)
   {
@@ -197,7 +219,8 @@ LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
       {
         standIns->noteWhole(node, *complete);
       }
-      if (shown.points > 0)
+      const bool standsIn = expected && !complete && ofNode(expected->replaced(), item.node);
+      if (shown.points > 0 && !standsIn)
       {
         items[layer].push_back(complete
             ? expectedItem(std::move(node), shown, complete->item, spacingPx)
@@ -207,7 +230,7 @@ LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
   }
   for (DetailGrowth::Leaving& leaving : growth.finish())
   {
-    if (shows(leaving.node))
+    if (shows(leaving.node) && !expected) // else stand-ins
     {
       const std::uint16_t layer = leaving.node->layer;
       items[layer].push_back(itemOf(std::move(leaving.node),

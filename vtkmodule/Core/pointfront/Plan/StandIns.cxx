@@ -12,18 +12,22 @@ namespace
 
 /// Share of the points of the complete view that are drawn in addition.
 constexpr double standInBudget = 0.05;
+/// The same where whole levels stand in.
+constexpr double wholeLevelsBudget = 0.09;
 
 } // namespace
 
 StandIns::StandIns(const ExpectedNodes& expected)
   : expected_(expected)
 {
-  double left = standInBudget * static_cast<double>(expected.points());
+  const bool wholeLevels = expected.refinement() == Refinement::Replace;
+  const double budget = wholeLevels ? wholeLevelsBudget : standInBudget;
+  double left = budget * static_cast<double>(expected.points());
   double coarser = 0.0; // points of the level above
   for (const std::uint64_t count : expected.refinedPoints())
   {
     const auto points = static_cast<double>(count);
-    const double taken = std::min(points, left);
+    const double taken = points <= left ? points : wholeLevels ? 0.0 : left;
     // Fewer than the level above are no finer than that.
     const bool finer = taken > coarser && points > 0.0;
     shares_.push_back(finer ? taken / points : 0.0);

@@ -13,6 +13,38 @@ ExpectedNodes::ExpectedNodes(
 {
 }
 
+void ExpectedNodes::listReplaced()
+{
+  replaced_.clear();
+  std::vector<NodeIndex> above;
+  for (const TabledNode& node : nodes_)
+  {
+    above.push_back(node.row.parent);
+  }
+  while (refinement() == Refinement::Replace && !above.empty())
+  {
+    std::sort(above.begin(), above.end());
+    above.erase(std::unique(above.begin(), above.end()), above.end());
+    std::vector<NodeIndex> next;
+    for (const NodeIndex node : above)
+    {
+      Node row;
+      if (node != noNode && hierarchy_->peek(node, row) == RowState::Here)
+      {
+        replaced_.push_back({ { node, row.pointCount, 0.0f, 0.0f, 0.0f }, row });
+        next.push_back(row.parent);
+      }
+    }
+    above = std::move(next);
+  }
+  const auto before = [](const TabledNode& a, const TabledNode& b)
+  { return a.item.node < b.item.node; };
+  const auto same = [](const TabledNode& a, const TabledNode& b)
+  { return a.item.node == b.item.node; };
+  std::sort(replaced_.begin(), replaced_.end(), before);
+  replaced_.erase(std::unique(replaced_.begin(), replaced_.end(), same), replaced_.end());
+}
+
 void ExpectedNodes::update(const View& view, const FrontLimits& limits, double thresholdPx)
 {
   if (!front_)
@@ -28,10 +60,14 @@ void ExpectedNodes::update(const View& view, const FrontLimits& limits, double t
   }
   seen_ = delta.number;
   nodes_ = front_->drawn([](NodeIndex) { return true; });
+  listReplaced();
   parents_.clear();
-  for (const TabledNode& node : nodes_)
+  for (const std::vector<TabledNode>* const nodes : { &nodes_, &replaced_ })
   {
-    parents_.push_back(node.row.parent);
+    for (const TabledNode& node : *nodes)
+    {
+      parents_.push_back(node.row.parent);
+    }
   }
   std::sort(parents_.begin(), parents_.end());
   points_ = 0;
@@ -39,6 +75,9 @@ void ExpectedNodes::update(const View& view, const FrontLimits& limits, double t
   for (const TabledNode& node : nodes_)
   {
     points_ += node.item.pointCount;
+  }
+  for (const TabledNode& node : refinement() == Refinement::Replace ? replaced_ : nodes_)
+  {
     const std::size_t level = node.row.level;
     refinedPoints_.resize(std::max(refinedPoints_.size(), level + 1), 0);
     refinedPoints_[level] += finerNodes(node.item.node) > 0 ? node.item.pointCount : 0;

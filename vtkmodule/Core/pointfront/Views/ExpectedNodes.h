@@ -27,24 +27,30 @@ public:
   /// The view is complete: frees what only an update needs.
   void finish();
 
+  Refinement refinement() const { return hierarchy_->refinement(); }
   const std::vector<TabledNode>& nodes() const { return nodes_; } ///< by node
+  /// The nodes above them that they replace, by node; none with Refinement::Add, which draws these.
+  const std::vector<TabledNode>& replaced() const { return replaced_; }
   /// The node among them; null: it is none of them.
   const TabledNode* find(NodeIndex node) const;
   /// In force in the complete view, pixels.
   double thresholdPx() const { return thresholdPx_; }
   std::uint64_t points() const { return points_; }
-  /// Points of nodes among which finer nodes are drawn, by level.
+  /// Points of nodes among or in place of which finer nodes are drawn, by level.
   const std::vector<std::uint64_t>& refinedPoints() const { return refinedPoints_; }
-  /// How many of them lie right below a node.
+  /// How many of them and of those that they replace lie right below a node.
   std::uint32_t finerNodes(NodeIndex node) const;
 
 private:
+  void listReplaced();
+
   std::shared_ptr<const Hierarchy> hierarchy_;
   WholeFront::Selection selection_;
   std::unique_ptr<WholeFront> front_; ///< null: finished
   std::uint64_t seen_ = 0; ///< number of the delta that nodes_ are made of
   std::vector<TabledNode> nodes_;
-  std::vector<NodeIndex> parents_; ///< parent of each of them; sorted
+  std::vector<TabledNode> replaced_;
+  std::vector<NodeIndex> parents_; ///< parent of each of both; sorted
   double thresholdPx_ = 0.0;
   std::uint64_t points_ = 0;
   std::vector<std::uint64_t> refinedPoints_;

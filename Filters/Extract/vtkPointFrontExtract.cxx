@@ -6,6 +6,7 @@
 #include "InterpreterPause.h"
 
 #include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Query/MissedRegion.h"
 #include "pointfront/Query/PointsById.h"
 #include "pointfront/Query/QueryPlan.h"
 #include "pointfront/Query/SphereRegion.h"
@@ -183,6 +184,10 @@ Result<QueryReport> vtkPointFrontExtract::Content::Run(
   if (!plan)
   {
     return plan.error();
+  }
+  if (const auto missed = pointfront::missedRegion(store.description(), *query); missed && !piece)
+  {
+    vtkWarningWithObjectMacro(&filter, << *missed);
   }
   return fetch(plan->description(),
     [&](const auto& consume) { return plan->piece(piece, pieces).run(store, options, consume); });

@@ -72,12 +72,14 @@ def refusals(programs):
         for step, words in (("id", None), ("malformed", "cannot be evaluated"),
                             ("no name", "cannot be evaluated"), ("sound", None),
                             ("beside", "lies beside the cloud"),
+                            ("turned", "lies beside the cloud"),
                             ("class", "a class 300 is none of 0 to 255"),
                             ("radius", "its radius is 0 or more"), ("where", "character"),
                             ("too many", "PointFront Extract"), ("enough", None),
                             ("unnamed", "Most Selection Points"),
                             ("damaged", "cannot be read")):
-            errors = steps[step].count("WARN|" if step == "beside" else "ERR|")
+            errors = steps[step].count(
+                "WARN|" if step in ("beside", "turned") else "ERR|")
             most = count if words else 0  # each rank speaks for itself
             if not bool(words) <= errors <= most or (words or "") not in steps[step]:
                 raise AssertionError("what is said of %s: %s" % (step, steps[step]))
@@ -107,12 +109,19 @@ def extract(programs):
                                      "intensity > 60 and return_number == 1")}
     for way in ("turned", "negative", "turned-negative"):
         wanted[way] = wanted["box"]
+    tool("generate", "--points", "60000", "--seed", "7", "-o", "survey.las", "--force")
+    buildings = {}
+    for layers in ("class", "none"):
+        survey = os.path.abspath("survey-%s.pfront" % layers)
+        tool("build", "survey.las", "-o", survey, "--layers", layers, "--force")
+        told = tool("export", survey, "-o", "buildings.csv", "--classes", "6", "--force")
+        buildings[survey] = int(told.split(": ")[1].split()[0])
     results = {}
     for count in (1, 2, 4):
         name = "extract-%d" % count
         programs.run(*mpi(count, os.environ["POINTFRONT_PVBATCH"],
                           os.path.join(HERE, "extract.py"), name, json.dumps(box),
-                          json.dumps(sphere)))
+                          json.dumps(sphere), json.dumps(buildings)))
         results[count] = found = numpy.load(name + ".npz")
         for what, rows in wanted.items():
             got = found[what][:, :4]

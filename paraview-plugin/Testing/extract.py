@@ -1,6 +1,7 @@
 """pvbatch, on any number of ranks: "PointFront Extract" gives the stored points of a region.
 
-usage: pvbatch extract.py NAME BOX SPHERE     BOX: six ends, low and high; SPHERE: centre and radius
+usage: pvbatch extract.py NAME BOX SPHERE BUILDINGS
+BOX: six ends, low and high; SPHERE: centre and radius; BUILDINGS: stores, and points of class 6
 Writes NAME.npz, sorted: the points of the box, of the sphere, of conditions, of a frustum, of a
 turned box; and what each rank read from the disk for the box.
 """
@@ -18,7 +19,7 @@ simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
 from scene import OUTPUT, POINTS, SIZE, STORE, Scene, require
 
-name, box, sphere = sys.argv[1], json.loads(sys.argv[2]), json.loads(sys.argv[3])
+name, (box, sphere, buildings) = sys.argv[1], map(json.loads, sys.argv[2:5])
 RANKS = servermanager.ActiveConnection.GetNumberOfDataPartitions()
 scene = Scene()
 scene.view.ViewSize = SIZE
@@ -55,6 +56,13 @@ early = PointFrontExtract(Input=simple.OpenDataFile(STORE), Classes=[0])
 require(len(points_of(early)) == POINTS, "of a reader not yet updated: %d points of %d"
         % (len(points_of(early)), POINTS))
 simple.Delete(early)
+# One class of several, with a tree of its own and without.
+for store, points in buildings.items():
+    for region in (True, False):
+        early = PointFrontExtract(Input=simple.OpenDataFile(store), Classes=[6], UseRegion=region)
+        require(len(points_of(early)) == points, "class 6 of %s, not yet updated: %d points of %d"
+                % (store, len(points_of(early)), points))
+        simple.Delete(early)
 
 found = {}
 extract = PointFrontExtract(Input=scene.reader)

@@ -72,6 +72,15 @@ beside.Region = "Sphere"
 beside.Region.Center, beside.Region.Radius = [1e9, 1e9, 1e9], 1.0
 beside.UpdatePipeline()
 simple.Delete(beside)
+# So it is with a turned box, of which no side has the whole cloud beyond it.
+step("turned")
+turned = PointFrontExtract(Input=reader, UseRegion=1)
+turned.Region = "Box"
+turned.Region.Position, turned.Region.Length = [210.0, 99.0, -1e3], [10.0, 10.0, 2e3]
+turned.Region.Rotation = [0.0, 0.0, 45.0]
+turned.UpdatePipeline()
+require(turned.GetDataInformation().GetNumberOfPoints() == 0, "points of a box beside")
+simple.Delete(turned)
 
 # Nor does what cannot be meant bring all points.
 for name, region, settings_ in (("class", "Box", {"Classes": [300]}),

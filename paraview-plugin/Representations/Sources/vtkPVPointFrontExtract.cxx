@@ -178,40 +178,6 @@ bool vtkPVPointFrontExtract::ChooseRegion(vtkSelection* selection)
 }
 
 //------------------------------------------------------------------------------
-void vtkPVPointFrontExtract::TellMissedRegion(vtkPointFrontStore* store)
-{
-  double region[6];
-  double cloud[6];
-  store->GetBounds(cloud);
-  if (this->UseSphere)
-  {
-    for (int i = 0; i < 3; ++i)
-    {
-      region[2 * i] = this->SphereCenter[i] - this->SphereRadius;
-      region[2 * i + 1] = this->SphereCenter[i] + this->SphereRadius;
-    }
-  }
-  else if (this->UseBox)
-  {
-    std::copy_n(this->Box, 6, region);
-  }
-  else
-  {
-    return;
-  }
-  for (int i = 0; i < 6; i += 2)
-  {
-    if (region[i] > cloud[i + 1] || region[i + 1] < cloud[i])
-    {
-      vtkWarningMacro("the region lies beside the cloud, so there are no points: the cloud has "
-        << "coordinates from (" << cloud[0] << ", " << cloud[2] << ", " << cloud[4] << ") to ("
-        << cloud[1] << ", " << cloud[3] << ", " << cloud[5] << ")");
-      return;
-    }
-  }
-}
-
-//------------------------------------------------------------------------------
 int vtkPVPointFrontExtract::RequestData(
   vtkInformation* request, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
@@ -228,7 +194,6 @@ int vtkPVPointFrontExtract::RequestData(
   }
   else if (this->ChooseRegion(vtkSelection::GetData(inputs[1], 0)))
   {
-    this->TellMissedRegion(pointfront::upstreamReaderOf(this)->GetStore());
     done = this->Superclass::RequestData(request, inputs, outputs);
   }
   if (done)

@@ -54,7 +54,6 @@ private:
   void operator=(const vtkPVPointFrontExtract&) = delete;
 
   bool ChooseRegion(vtkSelection* selection);
-  void TellMissedRegion(vtkPointFrontStore* store); ///< warns that no point can lie in the region
 
   bool UseRegion = true;
   vtkSmartPointer<vtkImplicitFunction> Region;

@@ -9,6 +9,7 @@ import struct
 import tempfile
 import time
 import unittest
+import warnings
 
 import numpy
 import pointfront
@@ -179,6 +180,52 @@ class Points(unittest.TestCase):
                         self.assertLessEqual(before, set(chosen["id"]))
                     before = set(chosen["id"])
                 self.assertLess(len(before), 0.9 * len(everything["id"]))
+
+    def test_a_region_beside_the_cloud_is_told(self):
+        """Each shape is, once, also where points come in chunks; and none that meets the cloud."""
+        model = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkCommonDataModel")
+        core = importlib.import_module(pointfront.VTK_PACKAGE + ".vtkCommonCore")
+
+        def column(x, y, edge):
+            """A square column on its edge, as planes whose normals point outwards."""
+            planes, places, normals = model.vtkPlanes(), core.vtkPoints(), core.vtkDoubleArray()
+            normals.SetNumberOfComponents(3)
+            for i in range(4):
+                normal = numpy.array([(-1) ** (i % 2), (-1) ** (i // 2), 0]) * 0.5 ** 0.5
+                places.InsertNextPoint(*([x, y, 0] + edge / 2 * normal))
+                normals.InsertNextTuple3(*normal)
+            planes.SetPoints(places)
+            planes.SetNormals(normals)
+            return planes
+
+        def box(x, y, edge):
+            return (x - edge, y - edge, z0, x + edge, y + edge, z1)
+
+        with pointfront.open(self.stores["add"]) as cloud:
+            (x0, y0, z0), (x1, y1, z1) = cloud.bounds
+            middle, edge = (y0 + y1) / 2, 100.0
+            shapes = {"box": box, "frustum": column,
+                      "sphere": lambda x, y, edge: ((x, y, z0), edge),
+                      "area": lambda x, y, edge: "POLYGON ((%s %s, %s %s, %s %s, %s %s))" % (
+                          x - edge, y, x, y - edge, x + edge, y, x - edge, y)}
+            for name, shape in shapes.items():
+                ways = [lambda **query: len(cloud.points(**query)["id"]),
+                        lambda **query: sum(len(c["id"]) for c in cloud.chunks(20000, **query)),
+                        lambda **query: cloud.extract(**query).GetNumberOfPoints()]
+                for number, count in enumerate(ways):
+                    with self.subTest(shape=name, way=number):
+                        with warnings.catch_warnings(record=True) as told:
+                            warnings.simplefilter("always")
+                            found = count(**{name: shape(x1 + 2 * edge, middle, edge)})
+                        self.assertEqual((found, len(told)), (0, 1), told)
+                        self.assertIn("lies beside the cloud", str(told[0].message))
+                        self.assertIs(told[0].category, pointfront.PointFrontWarning)
+                        self.assertEqual(told[0].filename, __file__)
+                        with warnings.catch_warnings(record=True) as told:
+                            warnings.simplefilter("always")
+                            found = count(**{name: shape(x1 - edge, middle, 2 * edge)})
+                        self.assertEqual([str(one.message) for one in told], [])
+                        self.assertGreater(found, 0)
 
     def test_a_forked_child_asks_as_its_parent_did(self):
         with pointfront.open(self.stores["add"]) as cloud:

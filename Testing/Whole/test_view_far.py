@@ -13,18 +13,20 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
 # pylint: disable-next=wrong-import-position
 from far_server import FarServer
 
+HERE = "127.0.0.1"
+
 
 class Far(WindowTest):
     def serve(self, folder):
         server = FarServer(folder)
         server.__enter__()
         self.addCleanup(server.__exit__)
-        return f"http://127.0.0.1:{server.port}"
+        return f"http://{HERE}:{server.port}"
 
     def assert_shown(self, address, file):
         """The window shows the picture that `render` makes of the file."""
         window = Window(self.folder, address, environment=dict(
-            os.environ, POINTFRONT_CACHE="off", no_proxy="127.0.0.1"))
+            os.environ, POINTFRONT_CACHE="off", no_proxy=HERE))
         self.addCleanup(lambda: window.process.poll() is None and window.close())
         picture = window.picture()
         self.assertEqual(window.end(), (0, ""))

@@ -36,13 +36,15 @@ class RulesTest(unittest.TestCase):
         tree = {
             "IO/LAS/A.cxx": "int a;\n" * 451,
             "IO/LAS/B.cxx": "int a;\n" * 450,
+            "IO/LAS/C.cxx": "// Longer than 450 lines: one table.\n" + "int a;\n" * 450,
+            "IO/LAS/D.cxx": "// Longer than 450 lines:\n" + "int a;\n" * 450,
             "Rendering/OpenGL2/GpuPool.cxx": "int a;\n" * 599,
             "Rendering/OpenGL2/glsl/a.glsl": "int a;\n" * 151,
             "docs/long.md": "text\n" * 900,
         }
         self.assertEqual(
             self.faults("FileLength", tree),
-            [("IO/LAS/A.cxx", 451), ("Rendering/OpenGL2/GpuPool.cxx", 599),
+            [("IO/LAS/A.cxx", 451), ("IO/LAS/D.cxx", 451), ("Rendering/OpenGL2/GpuPool.cxx", 599),
              ("Rendering/OpenGL2/glsl/a.glsl", 151)],
         )
 

@@ -1,14 +1,20 @@
+// Longer than 450 lines: ParaView sets some sixty properties, each by a method of this class.
 #include "vtkPointFrontRepresentation.h"
 
+#include "ClassSettings.h"
 #include "CloudActor.h"
+#include "CloudColors.h"
+#include "FXAAPause.h"
 #include "RankExchange.h"
+#include "SelectionMarks.h"
 #include "StyleChoice.h"
 #include "UpstreamReader.h"
+#include "vtkPVPointFilesReader.h"
 
 #include "pointfront/Style/QualityPreset.h"
 
-#include "vtkActorCollection.h"
 #include "vtkCommand.h"
+#include "vtkDataObject.h"
 #include "vtkInformation.h"
 #include "vtkInformationVector.h"
 #include "vtkMatrix4x4.h"
@@ -16,10 +22,10 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointFrontMapper.h"
 #include "vtkPointFrontStore.h"
+#include "vtkPointFrontStyle.h"
 #include "vtkPolyData.h"
 #include "vtkProcessModule.h"
 #include "vtkProperty.h"
-#include "vtkPVLODActor.h"
 #include "vtkPVRenderView.h"
 #include "vtkRenderer.h"
 #include "vtkRenderWindow.h"
@@ -36,6 +42,11 @@ namespace
 /// Frames per second above which a render is interactive: ParaView sets 5 (interactive) and 0.002
 /// (still).
 constexpr double StillRate = 0.01;
+
+std::string textOf(const char* value)
+{
+  return value ? value : "";
+}
 
 /// Opens the protected getter of the one fact that tells a screenshot from any other still render.
 /// ParaView sets it on all processes (vtkSMViewProxy::CaptureWindow).
@@ -54,6 +65,10 @@ struct SelectionState : vtkPVRenderView
 //------------------------------------------------------------------------------
 vtkPointFrontRepresentation::vtkPointFrontRepresentation()
   : Actor(vtkSmartPointer<pointfront::CloudActor>::New())
+  , Classes(new pointfront::ClassSettings)
+  , Colors(new pointfront::CloudColors)
+  , WithoutFXAA(new pointfront::FXAAPause)
+  , Marks(new pointfront::SelectionMarks)
   , Choice(new pointfront::StyleChoice)
   , Exchange(new pointfront::RankExchange)
 {
@@ -119,7 +134,11 @@ int vtkPointFrontRepresentation::ProcessViewRequest(
   auto* view = vtkPVRenderView::SafeDownCast(inInfo->Get(vtkPVView::VIEW()));
   if (request == vtkPVView::REQUEST_RENDER() && view)
   {
-    this->PrepareMarks(view);
+    this->Marks->putBack(view->GetRenderer());
+    if (SelectionState::Of(view) && this->GetVisibility())
+    {
+      this->Marks->takeOut(view->GetRenderer());
+    }
   }
   if (!this->Superclass::ProcessViewRequest(request, inInfo, outInfo))
   {
@@ -139,59 +158,6 @@ int vtkPointFrontRepresentation::ProcessViewRequest(
     this->PrepareFrame(inInfo, view);
   }
   return 1;
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::PrepareMarks(vtkPVRenderView* view)
-{
-  // Out of the renderer, not invisible: who made them goes on updating them and decides whether
-  // they are shown.
-  for (const auto& mark : this->HiddenMarks)
-  {
-    mark ? view->GetRenderer()->AddActor(mark) : void();
-  }
-  this->HiddenMarks.clear();
-  if (!SelectionState::Of(view) || !this->GetVisibility())
-  {
-    return;
-  }
-  vtkActorCollection* actors = view->GetRenderer()->GetActors();
-  for (int i = 0; i < actors->GetNumberOfItems(); ++i)
-  {
-    auto* actor = vtkPVLODActor::SafeDownCast(actors->GetItemAsObject(i));
-    if (actor && !actor->GetPickable())
-    {
-      this->HiddenMarks.emplace_back(actor);
-    }
-  }
-  for (const auto& mark : this->HiddenMarks)
-  {
-    view->GetRenderer()->RemoveActor(mark);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::SuspendFXAA(vtkPVRenderView* view)
-{
-  this->ResumeFXAA(); // a frame that was not rendered here
-  if (this->CrispPoints && view->GetUseFXAA())
-  {
-    view->SetUseFXAA(false);
-    this->SuspendedView = view;
-    this->EndObserver = view->GetRenderer()->AddObserver(
-      vtkCommand::EndEvent, this, &vtkPointFrontRepresentation::ResumeFXAA);
-  }
-}
-
-//------------------------------------------------------------------------------
-void vtkPointFrontRepresentation::ResumeFXAA()
-{
-  if (this->SuspendedView)
-  {
-    this->SuspendedView->GetRenderer()->RemoveObserver(this->EndObserver);
-    this->SuspendedView->SetUseFXAA(true);
-    this->SuspendedView = nullptr;
-  }
 }
 
 //------------------------------------------------------------------------------
@@ -240,9 +206,13 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const auto* preset = pointfront::qualityPresetOf(this->Choice->look.quality);
   this->Mapper->SetTargetError(preset ? preset->errorPx : this->TargetError);
 
-  this->PrepareClasses();
+  this->Classes->apply(*this->Mapper);
   this->PrepareColors();
-  this->SuspendFXAA(view);
+  this->WithoutFXAA->end();
+  if (this->CrispPoints)
+  {
+    this->WithoutFXAA->begin(view);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -254,6 +224,48 @@ bool vtkPointFrontRepresentation::WantsComplete(vtkPVRenderView* view) const
   }
   return vtkProcessModule::GetProcessType() == vtkProcessModule::PROCESS_BATCH ||
     CaptureState::Of(view);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareColors()
+{
+  vtkInformation* info = this->GetInputArrayInformation(0);
+  const char* array = info && info->Has(vtkDataObject::FIELD_NAME())
+    ? info->Get(vtkDataObject::FIELD_NAME())
+    : nullptr;
+  const bool ofPoints = info && info->Has(vtkDataObject::FIELD_ASSOCIATION()) &&
+    info->Get(vtkDataObject::FIELD_ASSOCIATION()) == vtkDataObject::FIELD_ASSOCIATION_POINTS;
+  this->Tell(this->Colors->choose(
+    *this->Mapper, array && ofPoints ? array : "", { this->MapScalars, this->DirectColors }));
+  this->PrepareStyle();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PrepareStyle()
+{
+  auto* view = vtkPVRenderView::SafeDownCast(this->GetView());
+  if (!view)
+  {
+    return;
+  }
+  pointfront::LookColour colour;
+  this->Colors->describe(*this->Mapper, colour);
+  std::copy_n(this->Property->GetColor(), 3, colour.flat.begin());
+  pointfront::PointLook& look = this->Choice->look;
+  look.pixels = this->PointSize;
+  // By depth, which translucent actors do not write, ranks put their pictures together.
+  look.opacity = this->Opacity;
+  look.translucentSurface = this->Mapper->GetNumberOfStorePieces() > 1;
+  this->Property->SetOpacity(look.translucentSurface ? 1.0 : this->Opacity);
+  std::string error;
+  const int* const size = view->GetRenderer()->GetSize();
+  vtkPointFrontStyle* const style = this->Choice->style(colour, size[0], size[1], error);
+  this->Mapper->SetStyle(style);
+  this->Tell(this->Colors->lostOpacities(*this->Mapper, style != nullptr));
+  if (!error.empty() && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkErrorMacro(<< error);
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -283,7 +295,7 @@ bool vtkPointFrontRepresentation::RemoveFromView(vtkView* view)
   {
     return false;
   }
-  this->ResumeFXAA();
+  this->WithoutFXAA->end();
   renderView->GetRenderer()->RemoveObserver(this->StartObserver);
   renderView->GetRenderer()->RemoveObserver(this->UncoverObserver);
   renderView->GetRenderer()->RemoveActor(this->Actor);
@@ -297,6 +309,15 @@ void vtkPointFrontRepresentation::BeginFrame()
   this->PlaceLens();
   this->AgreeOnExchange();
   this->CoverView();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::PlaceLens()
+{
+  if (this->GetVisibility() && this->Choice->lens.place.shape != pointfront::LensPlace::NONE)
+  {
+    this->PrepareStyle();
+  }
 }
 
 //------------------------------------------------------------------------------
@@ -340,10 +361,411 @@ void vtkPointFrontRepresentation::AgreeOnExchange()
 }
 
 //------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::TellLensOfRanks(bool oneSurface)
+{
+  const pointfront::LensChoice& lens = this->Choice->lens;
+  const bool parted =
+    oneSurface && lens.shows() && lens.place.shape == pointfront::LensPlace::AROUND_CLASS;
+  if (parted && !this->ToldOfRanks)
+  {
+    this->Tell("a lens around a class covers, on each rank, what that rank has of the class, "
+               "because the cloud as a whole is translucent: where ranks meet it has gaps.");
+  }
+  this->ToldOfRanks = parted;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::Tell(const std::string& warning)
+{
+  if (!warning.empty() && this->Mapper->GetStorePiece() == 0)
+  {
+    vtkWarningMacro(<< warning);
+  }
+}
+
+//------------------------------------------------------------------------------
 void vtkPointFrontRepresentation::SetVisibility(bool visible)
 {
   this->Actor->SetVisibility(visible);
   this->Superclass::SetVisibility(visible);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::IsColor(const std::string& array)
+{
+  return pointfront::CloudColors::isColour(array);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPointBudget(vtkIdType points)
+{
+  this->Mapper->SetPointBudget(points);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetGPUMemoryBudget(int mebibytes)
+{
+  this->Mapper->SetGPUMemoryBudget(static_cast<vtkTypeInt64>(mebibytes) << 20);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetDetailSelection(int method)
+{
+  this->Mapper->SetDetailSelection(method);
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetHostMemoryBudget()
+{
+  return static_cast<int>(vtkPointFrontStore::GetProcessMemoryBudget() >> 20);
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetNumberOfClasses()
+{
+  return this->Store ? this->Store->GetNumberOfObjectClasses() : 0;
+}
+
+//------------------------------------------------------------------------------
+const char* vtkPointFrontRepresentation::GetNameOfClass(int index)
+{
+  return this->Store ? this->Store->GetObjectClassName(index) : nullptr;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassVisibility(const char* name, int shown)
+{
+  if (shown != 0)
+  {
+    this->Classes->hidden.erase(name);
+  }
+  else
+  {
+    this->Classes->hidden.insert(name);
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassTargetErrorFactors()
+{
+  this->Classes->errorFactors.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassTargetErrorFactor(const char* name, double factor)
+{
+  this->Classes->errorFactors[name] = factor;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassBudgetShares()
+{
+  this->Classes->budgetShares.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClassBudgetShare(const char* name, double share)
+{
+  this->Classes->budgetShares[name] = share;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLookupTable(vtkScalarsToColors* table)
+{
+  this->Colors->table = table;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPointSize(double pixels)
+{
+  this->PointSize = pixels;
+  this->Property->SetPointSize(static_cast<float>(pixels));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTechnique(const char* name)
+{
+  this->Choice->look.technique = name ? name : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetQuality(const char* name)
+{
+  const std::string quality = name ? name : "";
+  this->Choice->look.quality = quality == "custom" ? std::string() : quality;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetClosingSize(int closing)
+{
+  this->Choice->look.closing = closing;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetSizeFactor(double factor)
+{
+  this->Choice->look.factor = factor;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetEyeDomeStrength(double strength)
+{
+  this->Choice->look.eyeDomeStrength = strength;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLit(int light)
+{
+  this->Choice->look.light = light;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetFillHoles(bool fill)
+{
+  this->Choice->look.fillHoles = fill;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetWhere(const char* condition)
+{
+  this->Choice->look.where = condition ? condition : "";
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetBackend(int backend)
+{
+  this->Mapper->SetBackend(backend);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetStyleFile(const char* fileName)
+{
+  this->Choice->setFile(fileName ? fileName : "");
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassStyles()
+{
+  this->Choice->classes.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddClassStyle(
+  const char* classCode, const char* technique, const char* color, const char* size)
+{
+  this->Choice->classes.add(textOf(classCode), textOf(technique), textOf(color), textOf(size));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearClassLights()
+{
+  this->Choice->lights.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddClassLight(
+  const char* classCode, const char* light, const char* eyeDomeStrength)
+{
+  this->Choice->lights.addLight(textOf(classCode), textOf(light), textOf(eyeDomeStrength));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensShape(int shape)
+{
+  this->Choice->lens.place.shape = shape;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensCenter(double x, double y)
+{
+  this->Choice->lens.place.centre = { { x, y } };
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensRadius(double radius)
+{
+  this->Choice->lens.place.radius = radius;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensSize(double width, double height)
+{
+  this->Choice->lens.place.size = { { width, height } };
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensMask(const char* fileName)
+{
+  this->Choice->lens.setMaskFile(textOf(fileName));
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensClass(int classCode)
+{
+  this->Choice->lens.place.aroundClass = classCode;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetLensClassRadius(double radius)
+{
+  this->Choice->lens.place.aroundRadius = radius;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::ClearLensStyles()
+{
+  this->Choice->lens.classes.clear();
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::AddLensStyle(
+  const char* classCode, const char* technique, const char* color, const char* size)
+{
+  this->Choice->lens.classes.add(
+    textOf(classCode), textOf(technique), textOf(color), textOf(size), true);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetGrowthTime(double milliseconds)
+{
+  this->Mapper->SetGrowthTime(milliseconds);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOpacity(double opacity)
+{
+  this->Opacity = opacity;
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetAmbientColor(double r, double g, double b)
+{
+  this->Property->SetAmbientColor(r, g, b);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetDiffuseColor(double r, double g, double b)
+{
+  this->Property->SetDiffuseColor(r, g, b);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPickable(int pickable)
+{
+  this->Actor->SetPickable(pickable);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetPosition(double x, double y, double z)
+{
+  this->Position = { x, y, z };
+  this->Actor->SetPosition(
+    x + this->Translation[0], y + this->Translation[1], z + this->Translation[2]);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetTranslation(double x, double y, double z)
+{
+  this->Translation = { x, y, z };
+  this->SetPosition(this->Position[0], this->Position[1], this->Position[2]);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetScale(double x, double y, double z)
+{
+  this->Actor->SetScale(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOrientation(double x, double y, double z)
+{
+  this->Actor->SetOrientation(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetOrigin(double x, double y, double z)
+{
+  this->Actor->SetOrigin(x, y, z);
+}
+
+//------------------------------------------------------------------------------
+void vtkPointFrontRepresentation::SetUserTransform(const double matrix[16])
+{
+  vtkNew<vtkTransform> transform;
+  transform->SetMatrix(matrix);
+  this->Actor->SetUserTransform(transform);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::IsDrawing()
+{
+  return this->GetVisibility() && this->GetView() && this->Mapper->GetStore();
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetPointsDrawn()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastPointsDrawn() : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetNodesDrawn()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastNodesDrawn() : 0;
+}
+
+//------------------------------------------------------------------------------
+double vtkPointFrontRepresentation::GetProjectedSpacing()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastError() : 0.0;
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPointFrontRepresentation::GetTechniqueDrawn()
+{
+  const bool draws = this->IsDrawing() && this->Mapper->GetLastPointsDrawn() > 0;
+  return draws ? this->Mapper->GetLastTechnique() : std::string();
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetStorePoints()
+{
+  return this->IsDrawing() ? this->Mapper->GetStore()->GetNumberOfPoints() : 0;
+}
+
+//------------------------------------------------------------------------------
+int vtkPointFrontRepresentation::GetFrameLimits()
+{
+  if (!this->IsDrawing())
+  {
+    return 0;
+  }
+  const auto bit = [](bool set, int value) { return set ? value : 0; };
+  const bool points = this->Mapper->GetLastLimitedByPoints();
+  return bit(points && !this->InMotion, POINT_BUDGET) | bit(points && this->InMotion, FRAME_TIME) |
+    bit(this->Mapper->GetLastLimitedByGPUMemory(), GPU_MEMORY) |
+    bit(this->Mapper->GetLastLimitedByMemory(), HOST_MEMORY) |
+    bit(!this->Mapper->GetLastComplete(), LOADING) |
+    bit(this->Mapper->GetLastFailedNodes() > 0, UNREADABLE);
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::GetFrameComplete()
+{
+  return !this->IsDrawing() || (this->Mapper->GetLastComplete() && this->GetBuildState().empty());
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPointFrontRepresentation::GetBuildState()
+{
+  auto* files = vtkPVPointFilesReader::SafeDownCast(pointfront::upstreamReaderOf(this));
+  return files ? files->GetBuildState() : std::string();
+}
+
+//------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::GetFrameOutdated()
+{
+  return this->IsDrawing() && this->Mapper->NeedsRender();
 }
 
 //------------------------------------------------------------------------------
@@ -353,7 +775,7 @@ void vtkPointFrontRepresentation::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "CompleteStillRenders: " << this->CompleteStillRenders << "\n"
      << indent << "TargetError: " << this->TargetError << " px\n"
      << indent << "TargetFrameTime: " << this->TargetFrameTime << " ms\n"
-     << indent << "HiddenClasses: " << this->HiddenClasses.size() << "\n"
+     << indent << "HiddenClasses: " << this->Classes->hidden.size() << "\n"
      << indent << "MapScalars: " << this->MapScalars << "\n"
      << indent << "DirectColors: " << this->DirectColors << "\n";
   this->Mapper->PrintSelf(os, indent.GetNextIndent());

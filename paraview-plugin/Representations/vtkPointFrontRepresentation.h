@@ -24,17 +24,12 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkNew.h" // for the members
 #include "vtkPVDataRepresentation.h"
-#include "vtkSmartPointer.h" // for the store and colour maps
-#include "vtkWeakPointer.h" // for marks
+#include "vtkSmartPointer.h" // for the store
 
 #include <array>
-#include <map>
 #include <memory>
-#include <set>
 #include <string>
-#include <vector>
 
-class vtkPVLODActor;
 class vtkPVRenderView;
 class vtkPointFrontMapper;
 class vtkPointFrontStore;
@@ -44,8 +39,12 @@ class vtkScalarsToColors;
 
 namespace pointfront
 {
+struct ClassSettings;
 class CloudActor;
+class CloudColors;
+class FXAAPause;
 class RankExchange;
+class SelectionMarks;
 class StyleChoice;
 } // namespace pointfront
 
@@ -120,7 +119,7 @@ public:
   vtkSetMacro(DirectColors, bool);
   vtkGetMacro(DirectColors, bool);
   /// False for what names points: "point_id".
-  static bool IsColor(const std::string& array) { return array != "point_id"; }
+  static bool IsColor(const std::string& array);
   ///@}
 
   ///@{
@@ -282,7 +281,6 @@ private:
   void ProvideData(vtkInformation* inInfo);
   /// Sets the mapper up for the frame that `view` is about to render.
   void PrepareFrame(vtkInformation* inInfo, vtkPVRenderView* view);
-  void PrepareClasses();
   void PrepareColors();
   /// Hands the mapper a style, if one is needed.
   void PrepareStyle();
@@ -296,18 +294,9 @@ private:
   void TellLensOfRanks(bool oneSurface);
   /// Ranks add up the colours of blended splats, if all of them can.
   void AgreeOnExchange();
-  /// Greys over the heights of the cloud; null without a store.
-  vtkScalarsToColors* HeightTable();
-  /// The table of the colours; on several ranks without its opacities.
-  vtkScalarsToColors* DrawnTable();
-  void TellOpaqueMap(bool styled);
+  /// Warns, on one rank of all, unless there is nothing to say.
+  void Tell(const std::string& warning);
   bool WantsComplete(vtkPVRenderView* view) const;
-  /// While the view selects, what cannot be picked is not drawn: above all the marks of what is
-  /// selected, which hide what is to be deselected.
-  void PrepareMarks(vtkPVRenderView* view);
-  /// Switches the view's FXAA off for the frame that it is about to render, and on again behind it.
-  void SuspendFXAA(vtkPVRenderView* view);
-  void ResumeFXAA();
   /// Whether this process draws points of a store.
   bool IsDrawing();
 
@@ -322,30 +311,21 @@ private:
   std::array<double, 3> Translation{};
   double TargetFrameTime = 0.0;
   double TargetError = 1.0;
-  std::set<std::string> HiddenClasses;
-  std::map<std::string, double> ClassFactors;
-  std::map<std::string, double> ClassShares;
   bool MapScalars = true;
   bool DirectColors = true;
-  std::vector<vtkWeakPointer<vtkPVLODActor>> HiddenMarks;
-  bool ToldOfNames = false; ///< that they are no colours
-  bool ToldOfOpaqueMap = false; ///< that its opacities are not drawn
   bool ToldOfRanks = false; ///< that each has its part of a lens
   bool CrispPoints = true;
   bool InMotion = false; ///< the last frame
-  vtkWeakPointer<vtkPVRenderView> SuspendedView; ///< whose FXAA is off for a frame
-  unsigned long EndObserver = 0;
   unsigned long StartObserver = 0;
   unsigned long UncoverObserver = 0;
-  std::string DrawnArray; ///< empty: one colour
-  bool DrawnDirectly = false; ///< its components are the colour
+  const std::unique_ptr<pointfront::ClassSettings> Classes;
+  const std::unique_ptr<pointfront::CloudColors> Colors;
+  const std::unique_ptr<pointfront::FXAAPause> WithoutFXAA;
+  const std::unique_ptr<pointfront::SelectionMarks> Marks; ///< not drawn while the view selects
   const std::unique_ptr<pointfront::StyleChoice> Choice;
   const std::unique_ptr<pointfront::RankExchange> Exchange;
   double PointSize = 2.0;
   double Opacity = 1.0;
-  vtkSmartPointer<vtkScalarsToColors> Table;
-  vtkSmartPointer<vtkScalarsToColors> OpaqueMap; ///< DrawnTable()
-  vtkSmartPointer<vtkScalarsToColors> Heights;
 };
 
 #endif

@@ -28,7 +28,7 @@ bool namedLikeStore(const std::string& path)
 {
   const std::string extension = std::filesystem::path(path).extension().string();
   return extension == ".pfront" || extension == ".pfindex" || extension == ".pfronts" ||
-    extension == ".pfcollection";
+    extension == ".pfcollection" || extension == ".vpc";
 }
 
 /// The hierarchy of a point file that has one: COPC, EPT.

@@ -48,6 +48,18 @@ SplatMeasure splatMeasure(const StoreDescription& store, const Hierarchy& hierar
   return byNode ? SplatMeasure::PerNode : SplatMeasure::None;
 }
 
+/// False where nodes are counted when their tiles are opened: a layer has points and no nodes.
+bool knowsNodes(const StoreDescription& store)
+{
+  return std::none_of(store.layers.begin(), store.layers.end(),
+    [](const Layer& layer) { return layer.pointCount > 0 && layer.nodeCount == 0; });
+}
+
+nlohmann::ordered_json countOrNull(bool known, std::uint32_t count)
+{
+  return known ? nlohmann::ordered_json(count) : nlohmann::ordered_json();
+}
+
 /// Versions of stores and of side files.
 bool olderThanSplats(const StoreDescription& store)
 {
@@ -104,9 +116,10 @@ nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy&
     store.crsWkt.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(store.crsWkt);
   object["structure"] = store.structure;
   object["refinement"] = refinementName(store.refinement);
-  object["nodes"] = hierarchy.nodeCount();
+  const bool counted = knowsNodes(store);
+  object["nodes"] = countOrNull(counted, hierarchy.nodeCount());
   object["levels"] = store.levels;
-  object["bytes"] = store.fileBytes;
+  object["bytes"] = counted ? nlohmann::ordered_json(store.fileBytes) : nlohmann::ordered_json();
   object["attributes"] = attributesJson(heldSchema(store));
   const NormalFacts normals = normalFacts(store);
   object["normals"] = { { "source", normals.source }, { "of", normals.of } };
@@ -114,7 +127,7 @@ nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy&
   for (const Layer& layer : store.layers)
   {
     object["layers"].push_back({ { "class", layer.objectClass }, { "name", layer.name },
-      { "points", layer.pointCount }, { "nodes", layer.nodeCount } });
+      { "points", layer.pointCount }, { "nodes", countOrNull(counted, layer.nodeCount) } });
   }
   object["splat_radius"] = nameOf(splatMeasure(store, hierarchy));
   object["version"] = store.version;
@@ -147,9 +160,12 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
        << store.grid.scale.z << "\n  crs         "
        << (store.crsWkt.empty() ? "not known" : systemName(store.crsWkt)) << "\n  hierarchy   "
        << store.structure << ", refinement " << refinementName(store.refinement) << ", "
-       << hierarchy.nodeCount() << " nodes in " << store.levels << " levels\n  file        "
-       << byteSizeText(store.fileBytes) << " (" << store.fileBytes << " bytes), version "
-       << store.version << ", by " << store.generator << "\n  splat sizes ";
+       << (knowsNodes(store) ? std::to_string(hierarchy.nodeCount()) : "uncounted") << " nodes in "
+       << store.levels << " levels\n  file        "
+       << (knowsNodes(store)
+              ? byteSizeText(store.fileBytes) + " (" + std::to_string(store.fileBytes) + " bytes)"
+              : "tiles that are opened when they are looked into")
+       << ", version " << store.version << ", by " << store.generator << "\n  splat sizes ";
   const SplatMeasure measure = splatMeasure(store, hierarchy);
   text << (measure == SplatMeasure::PerPoint ? "measured per point"
       : measure == SplatMeasure::PerNode     ? "measured per node"
@@ -161,7 +177,11 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
   for (const Layer& layer : store.layers)
   {
     text << "\n  layer       " << layer.name << " (class " << layer.objectClass
-         << "): " << layer.pointCount << " points in " << layer.nodeCount << " nodes";
+         << "): " << layer.pointCount << " points";
+    if (knowsNodes(store))
+    {
+      text << " in " << layer.nodeCount << " nodes";
+    }
   }
   return text.str();
 }

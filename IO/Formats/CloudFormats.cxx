@@ -6,6 +6,7 @@
 #include "LASFormat.h"
 #include "LAZGlance.h"
 #include "NormalsOnLoad.h"
+#include "STACFormat.h"
 
 #ifdef POINTFRONT_REMOTE
 #include "Address.h"
@@ -33,6 +34,7 @@ void addCloudFormats()
   formats.add(withNormalsOnLoad(std::make_shared<LASIndexFormat>()));
   formats.add(withNormalsOnLoad(std::make_shared<COPCFormat>()));
   formats.add(withNormalsOnLoad(std::make_shared<EPTTreeFormat>(&LASFormat::openBytes)));
+  formats.add(std::make_shared<STACFormat>());
   formats.add(std::make_shared<LAZGlanceFormat>()); // last: a folder with nothing better in it
 }
 

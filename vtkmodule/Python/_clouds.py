@@ -10,7 +10,7 @@ from ._queries import KERNEL_OPTIONS, Conditions, class_numbers
 
 
 class Cloud:
-    """A stored cloud: a store, an index, a COPC file, an EPT tree, a list (.pfronts),
+    """A stored cloud: a store, an index, a COPC file, an EPT tree, a list (.pfronts, .vpc),
     a collection (.pfcollection) or a folder.
     Stores, COPC, EPT and lists may lie behind an address of http, https or s3.
 

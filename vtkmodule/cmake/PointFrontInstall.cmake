@@ -7,7 +7,7 @@ include(PointFrontPublicHeaders)
 pointfront_install_headers()
 set(pointfront_kernel_libraries pointfrontCore pointfrontSourceFormats pointfrontAttributePasses
   pointfrontSoftware)
-foreach (library IN ITEMS IOEPT IOLAS IOPCD IOPLY IOPNG IORemote IOStyleJSON IOText
+foreach (library IN ITEMS IOEPT IOLAS IOPCD IOPLY IOPNG IORemote IOSTAC IOStyleJSON IOText
     FiltersAttributes FiltersNormals FiltersProjection)
   if (TARGET pointfront${library}) # not left out of this build
     list(APPEND pointfront_kernel_libraries pointfront${library})

@@ -1,20 +1,28 @@
 #include "pointfront/Tiles/TiledCloud.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Threads/ThreadCrew.h"
+#include "pointfront/Threads/WaitingWork.h"
 #include "pointfront/Tiles/NodeParts.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
+#include "pointfront/Tiles/TileFetch.h"
 #include "pointfront/Tiles/TileRanges.h"
 
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <utility>
 
 namespace pointfront
 {
+namespace
+{
+/// Tiles that are opened beside each other if some are behind addresses.
+constexpr std::size_t openingsAtOnce = 16;
+} // namespace
+
 Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   const std::string& path, const std::vector<std::string>& files, std::vector<std::string> warnings)
 {
@@ -22,12 +30,19 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   std::vector<Result<std::shared_ptr<const StoredCloud>>> opened(
     files.size(), makeError(Error::Kind::NotFound, ""));
   const std::function<bool()> stopped = StopOfReads::carry();
-  ThreadCrew::ofProcess().run(files.size(),
-    [&](std::size_t i, unsigned)
-    {
-      const StopOfReads stop(stopped);
-      opened[i] = StoredCloudFormats::ofProcess().open(files[i]);
-    });
+  const auto open = [&](std::size_t i)
+  {
+    const StopOfReads stop(stopped);
+    opened[i] = StoredCloudFormats::ofProcess().open(files[i]);
+  };
+  if (std::any_of(files.begin(), files.end(), [](const auto& file) { return isAddress(file); }))
+  {
+    runWaiting(files.size(), openingsAtOnce, open); // they wait for servers
+  }
+  else
+  {
+    ThreadCrew::ofProcess().run(files.size(), [&](std::size_t i, unsigned) { open(i); });
+  }
   constexpr std::size_t mostNamed = 3;
   std::string faults;
   std::size_t faulty = 0;
@@ -164,34 +179,17 @@ Result<FetchedNode> TiledCloud::wrapped(
 std::vector<Result<FetchedNode>> TiledCloud::fetchAll(
   const std::vector<WantedNode>& wanted, const ReadStop& stop) const
 {
-  struct Own
+  std::vector<WantedOfTile> inner;
+  for (const WantedNode& want : wanted)
   {
-    std::vector<WantedNode> nodes;
-    std::vector<std::size_t> places; ///< in `wanted`
-  };
-  std::map<std::size_t, Own> tiles;
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-  {
-    const TileTable::TileNode at = table_->tileNodeOf(wanted[i].node);
-    Own& own = tiles[at.tile];
-    own.nodes.push_back({ at.node, described_.parts[at.tile].columns.own(wanted[i].columns) });
-    own.places.push_back(i);
+    const TileTable::TileNode at = table_->tileNodeOf(want.node);
+    inner.push_back(
+      { tiles_[at.tile].get(), { at.node, described_.parts[at.tile].columns.own(want.columns) } });
   }
-  std::vector<std::optional<Result<FetchedNode>>> found(wanted.size());
-  for (const auto& [tile, own] : tiles)
+  std::vector<Result<FetchedNode>> results = fetchTiles(inner, stop);
+  for (std::size_t i = 0; i < results.size(); ++i)
   {
-    std::vector<Result<FetchedNode>> inner = tiles_[tile]->fetchAll(own.nodes, stop);
-    for (std::size_t i = 0; i < own.places.size(); ++i)
-    {
-      const WantedNode& want = wanted[own.places[i]];
-      found[own.places[i]] = wrapped(want.node, want.columns, std::move(inner[i]));
-    }
-  }
-  std::vector<Result<FetchedNode>> results;
-  results.reserve(found.size());
-  for (std::optional<Result<FetchedNode>>& each : found)
-  {
-    results.push_back(std::move(*each));
+    results[i] = wrapped(wanted[i].node, wanted[i].columns, std::move(results[i]));
   }
   return results;
 }

@@ -1,0 +1,343 @@
+#include "ItemCollection.h"
+
+#include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Points/QuantisationGrid.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+#include <utility>
+
+namespace pointfront
+{
+namespace
+{
+using Json = nlohmann::json;
+
+constexpr std::uint64_t mostPoints = std::uint64_t(1) << 48; ///< so that sums of a list are exact
+
+Error bad(const std::string& path, const std::string& what)
+{
+  return makeError(Error::Kind::BadFormat, path + ": " + what);
+}
+
+std::string lowered(std::string text)
+{
+  std::transform(text.begin(), text.end(), text.begin(),
+    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
+  return text;
+}
+
+bool endsWith(const std::string& text, std::string_view end)
+{
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+const Json* find(const Json& object, const char* key)
+{
+  if (!object.is_object())
+  {
+    return nullptr;
+  }
+  const auto found = object.find(key);
+  return found == object.end() || found->is_null() ? nullptr : &*found;
+}
+
+std::string textOf(const Json& object, const char* key)
+{
+  const Json* const found = find(object, key);
+  return found != nullptr && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+bool hasRole(const Json& asset, const char* role)
+{
+  const Json* const roles = find(asset, "roles");
+  return roles != nullptr && roles->is_array() &&
+    std::any_of(roles->begin(), roles->end(), [role](const Json& one) { return one == role; });
+}
+
+/// How likely an asset is the file of points; 0: it is not.
+int likelihood(const std::string& key, const Json& asset)
+{
+  const std::string href = textOf(asset, "href");
+  if (href.empty() || hasRole(asset, "overview"))
+  {
+    return 0;
+  }
+  const std::string name = lowered(fileNameOf(href));
+  const std::string type = lowered(textOf(asset, "type"));
+  const bool inPlace = endsWith(name, ".copc.laz") || name == "ept.json" ||
+    endsWith(name, ".pfront") || endsWith(name, ".pfindex") ||
+    type.find("copc") != std::string::npos;
+  const bool points = endsWith(name, ".laz") || endsWith(name, ".las");
+  const bool data = hasRole(asset, "data") || key == "data" || key == "pointcloud";
+  const bool other = endsWith(name, ".json") || endsWith(name, ".tif") || endsWith(name, ".png");
+  return inPlace ? 4 + (data ? 1 : 0) : points ? 2 + (data ? 1 : 0) : data && !other ? 1 : 0;
+}
+
+/// The asset with the points; null: there is none.
+const Json* assetOf(const Json& item)
+{
+  const Json* const assets = find(item, "assets");
+  const Json* best = nullptr;
+  int most = 0;
+  if (assets != nullptr && assets->is_object())
+  {
+    for (const auto& [key, asset] : assets->items())
+    {
+      if (const int likely = likelihood(key, asset); likely > most)
+      {
+        most = likely;
+        best = &asset;
+      }
+    }
+  }
+  return best;
+}
+
+/// A fact that stands in the item's properties, or in those of its asset.
+const Json* fact(const Json& item, const Json& asset, const char* key)
+{
+  const Json* const properties = find(item, "properties");
+  const Json* const found = properties != nullptr ? find(*properties, key) : nullptr;
+  return found != nullptr ? found : find(asset, key);
+}
+
+/// Lowest and highest elevation of the file's statistics.
+std::optional<std::pair<double, double>> elevations(const Json* statistics)
+{
+  if (statistics == nullptr || !statistics->is_array())
+  {
+    return std::nullopt;
+  }
+  for (const Json& of : *statistics)
+  {
+    const Json* const low = find(of, "minimum");
+    const Json* const high = find(of, "maximum");
+    if (textOf(of, "name") == "Z" && low != nullptr && high != nullptr && low->is_number() &&
+      high->is_number())
+    {
+      return std::pair(low->get<double>(), high->get<double>());
+    }
+  }
+  return std::nullopt;
+}
+
+Result<std::optional<Bounds>> boundsOf(
+  const Json& item, const Json& asset, const std::string& where)
+{
+  const Json* const box = fact(item, asset, "proj:bbox");
+  if (box == nullptr)
+  {
+    return std::optional<Bounds>();
+  }
+  std::vector<double> numbers;
+  for (const Json& one : box->is_array() ? *box : Json::array())
+  {
+    numbers.push_back(one.is_number() ? one.get<double>() : NAN);
+  }
+  if (numbers.size() == 4)
+  {
+    const auto heights = elevations(fact(item, asset, "pc:statistics"));
+    if (!heights)
+    {
+      return std::optional<Bounds>();
+    }
+    numbers = { numbers[0], numbers[1], heights->first, numbers[2], numbers[3], heights->second };
+  }
+  const bool numeric = numbers.size() == 6 &&
+    std::all_of(numbers.begin(), numbers.end(),
+      [](double one) { return std::abs(one) <= farthestCoordinate; });
+  Bounds bounds;
+  if (numeric)
+  {
+    bounds = { { numbers[0], numbers[1], numbers[2] }, { numbers[3], numbers[4], numbers[5] } };
+  }
+  if (bounds.empty())
+  {
+    return bad(where, "its \"proj:bbox\" is no box of 4 or 6 numbers, lowest first");
+  }
+  return std::optional<Bounds>(bounds);
+}
+
+Result<std::optional<std::uint64_t>> pointsOf(
+  const Json& item, const Json& asset, const std::string& where)
+{
+  const Json* const count = fact(item, asset, "pc:count");
+  if (count == nullptr)
+  {
+    return std::optional<std::uint64_t>();
+  }
+  const double number = count->is_number() ? count->get<double>() : -1.0;
+  if (!(number >= 0.0) || number != std::floor(number) || number > double(mostPoints))
+  {
+    return bad(where, "its \"pc:count\" is no number of points");
+  }
+  return std::optional<std::uint64_t>(static_cast<std::uint64_t>(number));
+}
+
+std::string systemOf(const Json& item, const Json& asset)
+{
+  for (const char* key : { "proj:wkt2", "proj:projjson", "proj:code", "proj:epsg" })
+  {
+    if (const Json* const found = fact(item, asset, key))
+    {
+      return found->is_string() ? found->get<std::string>()
+                                : found->dump(-1, ' ', false, Json::error_handler_t::replace);
+    }
+  }
+  return {};
+}
+
+Result<STACItem> itemOf(const Json& item, const Json& asset, const std::string& path)
+{
+  STACItem made;
+  made.name = textOf(item, "id");
+  made.href = textOf(asset, "href");
+  const std::string where = path + ": item '" + made.name + "'";
+  Result<std::optional<Bounds>> bounds = boundsOf(item, asset, where);
+  if (!bounds)
+  {
+    return bounds.error();
+  }
+  Result<std::optional<std::uint64_t>> points = pointsOf(item, asset, where);
+  if (!points)
+  {
+    return points.error();
+  }
+  made.bounds = *bounds;
+  made.points = *points;
+  made.system = systemOf(item, asset);
+  if (const Json* const schemas = fact(item, asset, "pc:schemas"))
+  {
+    made.kind = schemas->dump(-1, ' ', false, Json::error_handler_t::replace);
+  }
+  return made;
+}
+
+/// Whether a search of a server has more items than these.
+bool hasNextPage(const Json& json)
+{
+  const Json* const links = find(json, "links");
+  return links != nullptr && links->is_array() &&
+    std::any_of(
+      links->begin(), links->end(), [](const Json& link) { return textOf(link, "rel") == "next"; });
+}
+
+/// An address without "." and ".." among its folders.
+std::string withoutDots(const std::string& address)
+{
+  const std::size_t query = std::min(address.find_first_of("?#"), address.size());
+  const std::size_t root = std::min(address.find('/', address.find("://") + 3), query);
+  std::vector<std::string> parts;
+  for (std::size_t begin = root; begin < query;)
+  {
+    const std::size_t end = std::min(address.find('/', begin + 1), query);
+    const std::string part = address.substr(begin + 1, end - begin - 1);
+    if (part == ".." && !parts.empty())
+    {
+      parts.pop_back();
+    }
+    else if (part != "." && part != "..")
+    {
+      parts.push_back(part);
+    }
+    begin = end;
+  }
+  std::string path;
+  for (const std::string& part : parts)
+  {
+    path += '/' + part;
+  }
+  return address.substr(0, root) + path + address.substr(query);
+}
+} // namespace
+
+Result<ItemCollection> ItemCollection::parse(std::string_view text, const std::string& path)
+{
+  const Json json = Json::parse(text.begin(), text.end(), nullptr, false);
+  const std::string type = textOf(json, "type");
+  if (type == "Collection" || type == "Catalog")
+  {
+    return bad(path,
+      "is a STAC " + type +
+        ", which names other files of items; an ItemCollection has the items "
+        "themselves, such as the answer of a server's search");
+  }
+  const Json* const features = find(json, "features");
+  const bool alone = type == "Feature";
+  if (!alone && (type != "FeatureCollection" || features == nullptr || !features->is_array()))
+  {
+    return bad(path,
+      "is no STAC ItemCollection: no JSON object with \"features\" and of the type "
+      "\"FeatureCollection\"");
+  }
+  ItemCollection made;
+  std::size_t pointless = 0;
+  const Json list = alone ? Json::array({ json }) : Json();
+  for (const Json& item : alone ? list : *features)
+  {
+    const Json* const asset = assetOf(item);
+    if (asset == nullptr)
+    {
+      ++pointless;
+      continue;
+    }
+    Result<STACItem> one = itemOf(item, *asset, path);
+    if (!one)
+    {
+      return one.error();
+    }
+    made.items.push_back(std::move(*one));
+  }
+  if (made.items.empty())
+  {
+    return bad(path,
+      "names no file of points: none of its " + std::to_string(pointless) +
+        " items has an asset that is one");
+  }
+  if (pointless > 0)
+  {
+    made.warnings.push_back(std::to_string(pointless) + " of its " +
+      std::to_string(pointless + made.items.size()) +
+      " items name no file of points and are left out.");
+  }
+  if (hasNextPage(json))
+  {
+    made.warnings.push_back("It is one page of several: the items of the others are not in it.");
+  }
+  return made;
+}
+
+Result<std::string> resolvedHref(const std::string& path, const std::string& href)
+{
+  constexpr std::string_view file = "file://";
+  constexpr std::string_view curl = "/vsicurl/"; // GDAL's and PDAL's way to say it
+  std::string name = href.compare(0, curl.size(), curl) == 0 ? href.substr(curl.size()) : href;
+  const bool local = name.compare(0, file.size(), file) == 0;
+  name = local ? name.substr(file.size()) : name;
+  if (!isAddress(path) || isAddress(name))
+  {
+    while (!isAddress(name) && name.compare(0, 2, "./") == 0)
+    {
+      name = name.substr(2);
+    }
+    return isAddress(name) ? withoutDots(name) : beside(path, name);
+  }
+  if (local)
+  {
+    return makeError(Error::Kind::Unsupported,
+      path + ": names the file '" + name + "'; a list behind an address names addresses only");
+  }
+  if (!name.empty() && name.front() == '/')
+  {
+    const std::size_t host = path.find("://") + 3;
+    return withoutDots(
+      path.substr(0, std::min(path.find_first_of("/?#", host), path.size())) + name);
+  }
+  return withoutDots(beside(path, name));
+}
+
+} // namespace pointfront

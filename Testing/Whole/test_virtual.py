@@ -1,0 +1,156 @@
+"""Virtual point clouds (VPC) and STAC lists: one cloud of tiles that open when they are needed."""
+
+import json
+import os
+import pathlib
+import sys
+import unittest
+
+from pictures import read_png
+from tool import ToolTest
+from virtual_clouds import Tile, item, write_list, write_tiles
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
+
+# pylint: disable=wrong-import-position
+from far_server import FarServer
+
+HERE = "127.0.0.1"
+SIDE = 8
+STEP = (150, 60)  # from tile to tile, units
+
+
+class VirtualClouds(ToolTest):
+    def setUp(self):
+        super().setUp()
+        self.succeed("generate", "--points", "2000", "-o", self.folder / "one.las")
+        store = self.build(self.folder / "one.las")
+        self.copc = self.folder / "one.copc.laz"
+        self.succeed("export", store, "-o", self.copc)
+        self.tile = Tile(self.copc)
+        self.list = write_tiles(self.copc, self.folder, SIDE, STEP)
+        self.environment = {name: value for name, value in os.environ.items()
+                            if "proxy" not in name.lower()}
+        self.environment.update(POINTFRONT_CACHE="off", POINTFRONT_REMOTE_TIMEOUT="3")
+
+    def points(self, cloud, *options):
+        out = self.folder / "points.csv"
+        self.succeed("export", cloud, "-o", out, "--force", *options, environment=self.environment)
+        return out.read_bytes()
+
+    def draw(self, cloud, *options):
+        picture = self.folder / "picture.png"
+        self.succeed("render", cloud, "-o", picture, "--size", "320x240", "--backend", "software",
+                     *options, environment=self.environment)
+        return read_png(picture)
+
+    def items(self):
+        return json.loads(self.list.read_text())["features"]
+
+    def box(self, column, row):
+        low = [self.tile.low[axis] + STEP[axis] * (column, row)[axis] for axis in range(2)]
+        high = [self.tile.high[axis] + STEP[axis] * (column, row)[axis] for axis in range(2)]
+        return ",".join(map(str, (*low, -1000, *high, 1000)))
+
+    def test_it_is_the_cloud_of_its_tiles(self):
+        plain = self.folder / "all.pfronts"
+        plain.write_text("".join(f"{one['assets']['data']['href']}\n" for one in self.items()))
+        self.assertEqual(self.points(self.list), self.points(plain))
+        self.assertEqual(self.points(self.list, "--box", self.box(3, 2)),
+                         self.points(plain, "--box", self.box(3, 2)))
+        # Every point is drawn: how many are enough for a pixel depends on what is above a node.
+        self.assertTrue((self.draw(self.list, "--error", "0.05") ==
+                         self.draw(plain, "--error", "0.05")).all())
+        told = self.succeed("info", self.list, "--together", "--json").json
+        self.assertEqual(told["points"], SIDE * SIDE * self.tile.points)
+        self.assertIsNone(told["nodes"])
+        self.assertEqual(self.succeed("verify", self.list, "--json").json["points_checked"],
+                         SIDE * SIDE * self.tile.points)
+
+    def test_a_box_opens_its_tiles_only(self):
+        with FarServer(self.folder) as server:
+            address = f"http://{HERE}:{server.port}/all.vpc"
+            expected = self.points(self.list, "--box", self.box(3, 2))
+            server.requests.clear()
+            self.assertEqual(self.points(address, "--box", self.box(3, 2)), expected)
+            asked = {seen["path"] for seen in server.requests}
+            self.assertIn("/tile-3-2.copc.laz", asked)
+            self.assertLessEqual(len(asked), 6, asked)  # the list, four to know them by, and it
+
+    def test_a_view_opens_the_tiles_in_sight_only(self):
+        centre = [(self.tile.low[axis] + self.tile.high[axis]) / 2 + (3, 2)[axis] * STEP[axis]
+                  for axis in range(2)]
+        camera = self.folder / "near.json"
+        camera.write_text(json.dumps({
+            "position": [*centre, self.tile.high[2] + 60], "view_up": [0, 1, 0], "view_angle": 30,
+            "focal_point": [*centre, self.tile.low[2]]}))
+        near = self.draw(self.list, "--camera", camera)
+        with FarServer(self.folder) as server:
+            address = f"http://{HERE}:{server.port}/all.vpc"
+            self.assertTrue((self.draw(address, "--camera", camera) == near).all())
+            asked = {seen["path"] for seen in server.requests}
+            self.assertIn("/tile-3-2.copc.laz", asked)
+            self.assertLessEqual(len(asked), 6, asked)
+            # A server's list names absolute addresses, and its search has no file name.
+            items = self.items()
+            for one in items:
+                name = one["assets"]["data"]["href"]
+                one["assets"]["data"]["href"] = f"http://{HERE}:{server.port}/{name}"
+            write_list(self.folder / "search", items)
+            far = self.draw(f"http://{HERE}:{server.port}/search", "--camera", camera)
+            self.assertTrue((far == near).all())
+
+    def test_a_list_that_tells_too_little_opens_all(self):
+        items = self.items()
+        for one in items:
+            del one["properties"]["pc:count"]
+        short = write_list(self.folder / "short.json", items)
+        self.assertEqual(self.points(short), self.points(self.list))
+
+    def test_a_list_that_lies_is_told_where_it_matters(self):
+        """Tiles that are not looked into do not matter."""
+        place = 3 * SIDE + 2
+        def lying(name, change):
+            items = self.items()
+            change(items[place])
+            return write_list(self.folder / f"{name}.vpc", items)
+        def count(one):
+            one["properties"]["pc:count"] += 1
+        def bounds(one):
+            one["properties"]["proj:bbox"][0] += 10
+        def missing(one):
+            one["assets"]["data"]["href"] = "./none.copc.laz"
+        def other(one):
+            one["assets"]["data"]["href"] = "./one.las"
+        right = self.points(self.list, "--box", self.box(5, 5))
+        for name, change, word in (("count", count, "points, not"), ("bounds", bounds, "lie in"),
+                                   ("missing", missing, "none.copc.laz"),
+                                   ("other", other, "one.las")):
+            with self.subTest(name):
+                cloud = lying(name, change)
+                out = self.folder / "no.csv"
+                refused = self.refuse(1, "export", cloud, "-o", out, "--box", self.box(3, 2))
+                self.assertIn(word, refused.err)
+                self.assertFalse(out.exists())
+                self.assertEqual(self.points(cloud, "--box", self.box(5, 5)), right)
+                refused = self.refuse(1, "render", cloud, "-o", self.folder / "no.png",
+                                      "--backend", "software", "--size", "320x240")
+                self.assertIn(word, refused.err)
+
+    def test_other_systems_and_lists_that_are_none(self):
+        items = self.items()
+        for number, one in enumerate(items):
+            one["properties"]["proj:epsg"] = 25832 if number == 0 else 25833
+        mixed = write_list(self.folder / "mixed.vpc", items)
+        told = self.succeed("info", mixed, "--together", "--json").json
+        self.assertIn("63 of 64 files", " ".join(told["warnings"]))
+        (self.folder / "none.vpc").write_text("points\n")
+        self.assertIn("ItemCollection",
+                      self.refuse(1, "info", self.folder / "none.vpc", "--together").err)
+        write_list(self.folder / "gone.vpc", [item("gone.copc.laz", [0, 0, 0, 1, 1, 1], 5)])
+        self.assertIn("gone.copc.laz",
+                      self.refuse(1, "info", self.folder / "gone.vpc", "--together").err)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -49,7 +49,7 @@ struct TurningView : SlowView
   double across;
 };
 
-double meanDifference(const SoftwareTarget& a, const SoftwareTarget& b)
+double meanColourDifference(const SoftwareTarget& a, const SoftwareTarget& b)
 {
   double sum = 0.0;
   for (std::size_t i = 0; i < a.rgba.size(); ++i)
@@ -85,7 +85,7 @@ TEST(GrowingMotion, ATurnIsNearToTheViewAtRest)
     }
     still.turn(turningFrames - 1);
     EXPECT_GT(growing.plan.pointCount(), 20000u);
-    const double off = meanDifference(growing.target, still.target);
+    const double off = meanColourDifference(growing.target, still.target);
     EXPECT_LT(off, mostOfGrowth) << blended;
   }
 }

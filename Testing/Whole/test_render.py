@@ -384,7 +384,7 @@ class Refinement(SceneTest):
                 "gpu_bytes_max", "gpu_budget_bytes", "budget_bytes", "bytes_read",
                 "frames_that_read_files", "loading", "backend", "rasterise_ms", "picture_bytes",
                 "empty_scene_rss_bytes", "peak_rss_bytes",
-                "requests", "bytes_fetched", "retries", "cache_hits"})
+                "requests", "bytes_fetched", "retries", "cache_hits", "expected"})
             self.assertEqual(result["backend"], BACKEND)
             self.assertGreater(result["peak_rss_bytes"], result["empty_scene_rss_bytes"])
             self.assertEqual(result["frames"], 6)

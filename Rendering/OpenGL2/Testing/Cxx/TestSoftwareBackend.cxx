@@ -151,6 +151,7 @@ TEST(SoftwareBackend, HeightsFarBelowTheEyeHaveTheColoursOfOpenGL)
   scene.mapper->SetLookupTable(table);
   scene.lookFrom({ 0.3, -2.0, 101.3 }, { 0.0, 0.0, 0.0 });
   scene.renderer->GetActiveCamera()->SetViewAngle(1.5);
+  scene.renderer->GetActiveCamera()->SetClippingRange(50.0, 150.0);
   const Picture gl = scene.draw();
   scene.mapper->SetBackendToSoftware();
   EXPECT_GT(gl.lit(), 10000);

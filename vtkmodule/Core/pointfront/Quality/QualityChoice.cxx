@@ -75,11 +75,11 @@ QualityChoice told(QualityChoice choice, const std::string& asked)
   const Offered& one = *offeredOf(place);
   choice.preset = { place.technique, one.technique, one.blended, one.accuracy, place.errorPx };
   choice.sentence = "quality " + asked + ": " + place.technique +
-    formatted(" at %g px%.0s%.0s", place.errorPx, 0.0, 0.0) +
+    formatted(" at %g px", place.errorPx, 0.0, 0.0) +
     (choice.reached ? "" : ", the nearest that was measured") +
     formatted("; SSIM %.3f to %.3f, in the middle %.3f", place.ssim.least, place.ssim.most,
       place.ssim.middle) +
-    formatted("; a frame %.0f to %.0f ms%.0s", place.frameMs.least, place.frameMs.most, 0.0) +
+    formatted("; a frame %.0f to %.0f ms", place.frameMs.least, place.frameMs.most, 0.0) +
     " there (" + curveSource() + ")";
   return choice;
 }

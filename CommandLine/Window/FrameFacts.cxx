@@ -41,6 +41,12 @@ void FrameFacts::toggle()
   write();
 }
 
+void FrameFacts::hide()
+{
+  shown_ = false;
+  write();
+}
+
 void FrameFacts::write()
 {
   FrameRecord frame = stores_.record();

@@ -28,6 +28,7 @@ public:
   FrameFacts& operator=(const FrameFacts&) = delete;
 
   void toggle();
+  void hide();
   TextPanel& panel() { return panel_; }
   /// The window rests, and the facts that it shows are older than its last frame: it is to be drawn
   /// once more. What that frame takes is no fact.

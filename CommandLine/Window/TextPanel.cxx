@@ -1,5 +1,7 @@
 #include "TextPanel.h"
 
+#include <vtkCallbackCommand.h>
+#include <vtkCommand.h>
 #include <vtkCoordinate.h>
 #include <vtkRenderer.h>
 #include <vtkTextProperty.h>
@@ -10,15 +12,16 @@ namespace pointfront
 namespace
 {
 constexpr int fontSize = 15;
+constexpr int leastFontSize = 6; // smaller letters are no letters
 constexpr double margin = 0.012; // share of the view
 constexpr double dim = 0.65; // opacity behind the text
 } // namespace
 
 TextPanel::TextPanel(vtkRenderer* renderer, Corner corner)
+  : renderer_(renderer)
 {
   vtkTextProperty* const look = actor_->GetTextProperty();
   look->SetFontFamilyToCourier();
-  look->SetFontSize(fontSize);
   look->SetColor(1.0, 1.0, 1.0);
   look->SetBackgroundColor(0.0, 0.0, 0.0);
   look->SetBackgroundOpacity(dim);
@@ -31,6 +34,38 @@ TextPanel::TextPanel(vtkRenderer* renderer, Corner corner)
   actor_->PickableOff();
   actor_->VisibilityOff();
   renderer->AddViewProp(actor_);
+  command_->SetClientData(this);
+  command_->SetCallback(
+    [](vtkObject*, unsigned long, void* self, void*) { static_cast<TextPanel*>(self)->fit(); });
+  renderer->AddObserver(vtkCommand::StartEvent, command_);
+}
+
+TextPanel::~TextPanel()
+{
+  renderer_->RemoveObserver(command_);
+}
+
+void TextPanel::fit()
+{
+  const int* const size = renderer_->GetSize();
+  const glm::ivec2 view(size[0], size[1]);
+  if (text_.empty() || view == fitted_)
+  {
+    return;
+  }
+  fitted_ = view;
+  vtkTextProperty* const look = actor_->GetTextProperty();
+  const glm::dvec2 room = (1.0 - 2.0 * margin) * glm::dvec2(view);
+  for (int font = fontSize; font >= leastFontSize; --font)
+  {
+    double taken[2];
+    look->SetFontSize(font);
+    actor_->GetSize(renderer_, taken);
+    if (taken[0] <= room.x && taken[1] <= room.y)
+    {
+      return;
+    }
+  }
 }
 
 bool TextPanel::set(const std::string& text)
@@ -40,6 +75,7 @@ bool TextPanel::set(const std::string& text)
     return false;
   }
   text_ = text;
+  fitted_ = glm::ivec2(0);
   actor_->SetInput(text_.c_str());
   setVisible(visible_);
   return true;

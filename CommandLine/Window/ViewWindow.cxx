@@ -331,6 +331,7 @@ void ViewWindow::obey(KeyAction action, const glm::ivec2& pixel)
       break;
     case KeyAction::Escape:
       layOver("");
+      facts_.hide();
       inspection_.clear();
       break;
     case KeyAction::Classes:

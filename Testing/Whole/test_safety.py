@@ -43,7 +43,7 @@ def start(*arguments):
 
 
 def ended(process):
-    """What a process says until its end."""
+    """The complaints of a process, at its end."""
     try:
         return process.communicate(timeout=PATIENCE)[1]
     except subprocess.TimeoutExpired:
@@ -154,7 +154,7 @@ class Signals(ToolTest):
                                (f"whole.{kind}", f"in.{kind}", "out.pfront"))
             self.succeed("export", store, "-o", whole)
             statuses, moments = [], [4, 2, 1]
-            # Who has read all before the cut says nothing of it: then once more, from the beginning.
+            # A run that has read all before the cut says nothing of it: then once more.
             while moments or (1 not in statuses and len(statuses) < TRIES):
                 moment = moments.pop() if moments else 0
                 status, told = self.cut_at(moment, whole, cut, out)

@@ -9,13 +9,23 @@ usage: test_random_loading.py [RandomLoading.test_KIND]
 import unittest
 
 from pair_test import PairTest
-from random_loading import KINDS, Loading
+from random_loading import KINDS, Loading, LoadingClouds
 
 USUAL = 4  # a scene has dozens of frames, of both back ends
 # (kind, case): the smallest cases that once differed.
 FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
     "position": [400499.25, 5600214.90, 411.29], "focal_point": [400043.91, 5600006.65, 91.31],
-    "view_up": [0, 0, 1], "view_angle": 45}, "error": "0.01", "growth": 0}),)
+    "view_up": [0, 0, 1], "view_angle": 45}, "error": "0.01", "growth": 0}),
+    # Two points of a pixel at one depth.
+    (Loading, {"cloud": 9, "style": {"default": {"technique": "splats"}}, "camera": {
+        "position": [400071.1292686941, 5600018.623587355, 71.21919381167415],
+        "focal_point": [400038.45385257935, 5600016.841604646, 68.81958381167347],
+        "view_up": [0, 0, 1], "view_angle": 20}, "error": "3", "growth": 0.05}),
+    # The trees of hidden classes are not loaded.
+    (LoadingClouds, {"cloud": 5, "style": {"classes": {"2": {"visible": False}}}, "camera": {
+        "position": [400037.03044364793, 5600028.989640989, 58.06921272895356],
+        "focal_point": [400072.9995474673, 5600102.090273316, 58.06921272895356],
+        "view_up": [0, 0, 1], "view_angle": 45}, "error": "1", "growth": 0}))
 
 
 class RandomLoading(PairTest):

@@ -21,6 +21,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pointfront
 {
@@ -190,7 +191,9 @@ bool SplatPart::drawInto(const SplatFrame& frame, const FramePlan& plan, const D
   state->vtkglEnable(GL_DEPTH_TEST);
   state->vtkglDepthFunc(GL_LESS);
   const auto runs = demand.goesOn ? &SplatGroups::Group::added : &SplatGroups::Group::all;
-  drawGroups(frame, { runs, parts_, nullptr });
+  const bool resting = plan.refining || !plan.keepsVisible;
+  const bool byIds = demand.goesOn || (resting && kept_.empty());
+  drawGroups(frame, { runs, parts_, nullptr, byIds, demand.goesOn });
   if (!demand.goesOn)
   {
     kept_.draw(frame, tools_, groups_, parts_, false, target_->seenDepths());
@@ -298,7 +301,7 @@ vtkTextureObject* SplatPart::addGrowing(const SplatFrame& frame, SeenTextures& s
   return growing.sums();
 }
 
-void SplatPart::drawGroups(const SplatFrame& frame, const Pass& pass)
+void SplatPart::drawGroups(const SplatFrame& frame, Pass pass)
 {
   for (const SplatGroups::Group& group : groups_.groups())
   {
@@ -306,6 +309,7 @@ void SplatPart::drawGroups(const SplatFrame& frame, const Pass& pass)
     if (!runs.stretches().empty() && (!pass.seenDepths || group.first->passes.blended))
     {
       drawGroup(frame, group, pass);
+      pass.follows = pass.byIds;
     }
   }
 }
@@ -314,17 +318,25 @@ void SplatPart::drawGroup(
   const SplatFrame& frame, const SplatGroups::Group& group, const Pass& pass)
 {
   const bool second = pass.seenDepths != nullptr;
-  const SplatVariant variant = variantOf(group, pass.parts, second);
+  SplatVariant variant = variantOf(group, pass.parts, second);
+  variant.follows = pass.follows;
   vtkShaderProgram* const program = tools_.programs.use(frame.window, variant);
   if (!program)
   {
     return;
   }
-  second ? setTexture(program, "seenDepths", pass.seenDepths) : void();
-  drawSplatRuns(frame, tools_.records, program, variant, group, group.*pass.runs);
-  if (second)
+  pass.follows ? target_->follow(frame.window, limits_) : void();
+  const std::pair<const char*, vtkTextureObject*> textures[] = { { "seenDepths", pass.seenDepths },
+    { "earlierDepths", pass.follows ? target_->earlierDepths() : nullptr },
+    { "earlierIds", pass.follows ? target_->earlierIds() : nullptr } };
+  for (const auto& [name, texture] : textures)
   {
-    pass.seenDepths->Deactivate();
+    texture ? setTexture(program, name, texture) : void();
+  }
+  drawSplatRuns(frame, tools_.records, program, variant, group, group.*pass.runs);
+  for (const auto& [name, texture] : textures)
+  {
+    texture ? texture->Deactivate() : void();
   }
 }
 

@@ -67,10 +67,14 @@ private:
     DrawRuns SplatGroups::Group::*runs;
     SplatTarget::Parts parts;
     vtkTextureObject* seenDepths; ///< null: the first pass
+    /// The smaller id is seen of two points at one depth, though groups are drawn one after the
+    /// other. Otherwise it is the point that is drawn first.
+    bool byIds = false;
+    bool follows = false; ///< likewise, though the target has points of earlier frames
   };
   bool isSame(const FramePlan& plan, const Demand& demand) const;
   bool drawInto(const SplatFrame& frame, const FramePlan& plan, const Demand& demand);
-  void drawGroups(const SplatFrame& frame, const Pass& pass);
+  void drawGroups(const SplatFrame& frame, Pass pass);
   void drawGroup(const SplatFrame& frame, const SplatGroups::Group& group, const Pass& pass);
   void addSums(const SplatFrame& frame, bool goesOn);
   void forgetHidden(const SplatFrame& frame);

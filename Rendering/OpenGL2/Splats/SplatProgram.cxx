@@ -4,6 +4,7 @@
 #include "CaptureGSGLSL.h"
 #include "CaptureVSGLSL.h"
 #include "ColourMapTextureGLSL.h"
+#include "EarlierSplatGLSL.h"
 #include "ForgetFSGLSL.h"
 #include "KeptPointGLSL.h"
 #include "LayerFSGLSL.h"
@@ -46,7 +47,7 @@ std::string definitions(const SplatVariant& variant)
     define("SHAPED", variant.shaped) + define("NORMALS", variant.normals) +
     define("RADIUS", static_cast<int>(variant.radius)) + define("LIT", variant.lit) +
     define("PICKING", variant.ids) + define("QUADS", variant.quads) +
-    define("STAND_IN", variant.standIn);
+    define("STAND_IN", variant.standIn) + define("FOLLOWS", variant.follows);
 }
 
 /// The parts of a shader, beside its own text.
@@ -56,6 +57,7 @@ struct Content
   bool table = false; ///< colours by a table
   bool walls = false;
   bool kept = false;
+  bool follows = false;
 };
 
 std::string filled(const char* source, const Content& content)
@@ -73,6 +75,7 @@ std::string filled(const char* source, const Content& content)
     { "//POINTFRONT::SphereSample::Dec", SphereSampleGLSL },
     { "//POINTFRONT::WallSetUp::Dec", content.walls ? WallSetUpGLSL : "" },
     { "//POINTFRONT::WallSample::Dec", content.walls ? WallSampleGLSL : "" },
+    { "//POINTFRONT::EarlierSplat::Dec", content.follows ? EarlierSplatGLSL : "" },
   };
   for (const auto& [mark, text] : parts)
   {
@@ -96,6 +99,7 @@ const SplatPrograms::Sources& SplatPrograms::sourcesOf(const SplatVariant& varia
     variant.colour == PointColouring::Kind::Elevation;
   content.walls = !variant.square && variant.shape == SplatShape::Wall;
   content.kept = variant.kept;
+  content.follows = variant.follows;
   Sources sources;
   if (captures)
   {

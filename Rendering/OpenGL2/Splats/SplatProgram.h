@@ -42,11 +42,12 @@ struct SplatVariant
   bool quads = false; ///< for splats that are larger than points can be
   bool kept = false; ///< points that were visible in an earlier picture
   bool standIn = false; ///< points of a refining view without ids
+  bool follows = false; ///< only what is seen before what was drawn earlier
 
   auto key() const
   {
     return std::make_tuple(square, shape, parallel, second, colour, marked, shaped, normals, radius,
-      lit, ids, quads, kept, standIn);
+      lit, ids, quads, kept, standIn, follows);
   }
   friend bool operator<(const SplatVariant& a, const SplatVariant& b) { return a.key() < b.key(); }
 };

@@ -43,14 +43,14 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int outputs)
   glDrawBuffers(static_cast<GLsizei>(outputs), all);
 }
 
-/// The whole of what a framebuffer has there becomes a texture's, of its size.
+/// A rectangle of a framebuffer becomes that of a texture of its size.
 void copyTo(vtkTextureObject* texture, vtkOpenGLFramebufferObject* from, unsigned int attachment,
-  const SplatTarget::Parts& parts)
+  const PixelRectangle& r)
 {
   from->Bind();
   glReadBuffer(attachment);
   texture->Activate();
-  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, 0, 0, parts.width, parts.height);
+  glCopyTexSubImage2D(GL_TEXTURE_2D, 0, r.left, r.bottom, r.left, r.bottom, r.width(), r.height());
   texture->Deactivate();
 }
 
@@ -170,12 +170,27 @@ void SplatTarget::keepDepths(vtkOpenGLRenderWindow* window)
   {
     allocate(window, lastDepths_, parts_, 1, VTK_FLOAT);
   }
-  copyTo(lastDepths_, seen_, GL_COLOR_ATTACHMENT1, parts_);
+  copyTo(lastDepths_, seen_, GL_COLOR_ATTACHMENT1, { 0, 0, parts_.width, parts_.height });
+}
+
+void SplatTarget::follow(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle)
+{
+  if (earlierDepths_->GetHandle() == 0)
+  {
+    allocate(window, earlierDepths_, parts_, 1, VTK_FLOAT);
+    allocate(window, earlierIds_, parts_, 2, VTK_FLOAT);
+  }
+  const GLenum ids = parts_.lit ? GL_COLOR_ATTACHMENT3 : GL_COLOR_ATTACHMENT2;
+  copyTo(earlierDepths_, seen_, GL_COLOR_ATTACHMENT1, rectangle);
+  copyTo(earlierIds_, seen_, ids, rectangle);
+  beginSeen(false);
+  constexpr float farthest = 1.0f;
+  glClearBufferfv(GL_DEPTH, 0, &farthest);
 }
 
 void SplatTarget::takeSums(SplatTarget& other)
 {
-  copyTo(sums_, other.summed_, GL_COLOR_ATTACHMENT0, parts_);
+  copyTo(sums_, other.summed_, GL_COLOR_ATTACHMENT0, { 0, 0, parts_.width, parts_.height });
 }
 
 void SplatTarget::beginPicture()
@@ -194,7 +209,8 @@ void SplatTarget::release(vtkOpenGLRenderWindow* window)
   }
   for (vtkTextureObject* texture : { seenColours_.GetPointer(), seenDepths_.GetPointer(),
          depthBuffer_.GetPointer(), normals_.GetPointer(), ids_.GetPointer(), sums_.GetPointer(),
-         lastDepths_.GetPointer(), pictureColour_.GetPointer(), pictureDepth_.GetPointer() })
+         lastDepths_.GetPointer(), earlierDepths_.GetPointer(), earlierIds_.GetPointer(),
+         pictureColour_.GetPointer(), pictureDepth_.GetPointer() })
   {
     texture->ReleaseGraphicsResources(window);
   }

@@ -1,5 +1,7 @@
 #pragma once
 
+#include "PixelRectangle.h"
+
 #include <vtkNew.h>
 
 #include <cstdint>
@@ -23,7 +25,8 @@ struct SeenTextures
 
 /// The textures that splats are drawn into, and the picture that is made of them.
 /// Bytes    16 a pixel for who is seen; with several looks 8, with light 16, with ids 8, with
-///          blending 16 more, and 4 while it is refined; 12 for the picture.
+///          blending 16 more; 12 where points follow others, with blending 4 more while it is
+///          refined; 12 for the picture.
 /// Threads  that of the GL context, which is current in all functions but the constructor.
 class SplatTarget
 {
@@ -59,6 +62,9 @@ public:
   void beginPicture();
   /// The depths that decide go into lastDepths().
   void keepDepths(vtkOpenGLRenderWindow* window);
+  /// Binds for points that follow others: who is seen in a rectangle goes into earlierDepths() and
+  /// earlierIds(), with which points are compared; the depth buffer becomes empty there.
+  void follow(vtkOpenGLRenderWindow* window, const PixelRectangle& rectangle);
   /// The sums of another target of the same size become those of this one.
   void takeSums(SplatTarget& other);
 
@@ -69,6 +75,8 @@ public:
   vtkTextureObject* ids() { return ids_; }
   vtkTextureObject* sums() { return sums_; }
   vtkTextureObject* lastDepths() { return lastDepths_; }
+  vtkTextureObject* earlierDepths() { return earlierDepths_; }
+  vtkTextureObject* earlierIds() { return earlierIds_; }
   vtkTextureObject* pictureColour() { return pictureColour_; }
   /// r: depth, g: highlight.
   vtkTextureObject* pictureDepth() { return pictureDepth_; }
@@ -86,6 +94,8 @@ private:
   vtkNew<vtkTextureObject> ids_;
   vtkNew<vtkTextureObject> sums_;
   vtkNew<vtkTextureObject> lastDepths_;
+  vtkNew<vtkTextureObject> earlierDepths_;
+  vtkNew<vtkTextureObject> earlierIds_;
   vtkNew<vtkTextureObject> pictureColour_;
   vtkNew<vtkTextureObject> pictureDepth_;
   vtkNew<vtkOpenGLFramebufferObject> seen_;

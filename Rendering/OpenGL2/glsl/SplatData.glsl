@@ -8,4 +8,5 @@
 // POINTFRONT_SHAPED    normals and codes of radii are there; POINTFRONT_NORMALS: normals count
 // POINTFRONT_RADIUS    0 pixels, 1 world units, 2 what closes the node, 3 codes, 4 a column's
 // POINTFRONT_STAND_IN  of a refining view: an id is the number of the point's node
+// POINTFRONT_FOLLOWS   only what is seen before what was drawn earlier
 // POINTFRONT_LIT, POINTFRONT_PICKING, POINTFRONT_QUADS

@@ -58,6 +58,7 @@ vec2 sampleExact(vec2 d)
 
 //POINTFRONT::SphereSample::Dec
 //POINTFRONT::WallSample::Dec
+//POINTFRONT::EarlierSplat::Dec
 
 /// View space, towards the eye; 0: none.
 vec3 normalAt(float depth)
@@ -122,6 +123,12 @@ void main()
     key += rimRadii * splat.centre.w;
     colour = rimRadii > 0.0 ? rimColour : colour;
   }
+#if POINTFRONT_FOLLOWS
+  if (isBehindEarlier(key))
+  {
+    discard;
+  }
+#endif
   gl_FragDepth = key * depthScale;
   gl_FragData[0] = vec4(colour, seenMark);
   gl_FragData[1] = vec4(key, s.y, seenLook, POINTFRONT_STAND_IN == 1 ? splat.id.x : 0.0);

@@ -50,6 +50,8 @@ public:
     auto node = std::make_shared<NodeColumns>();
     node->node = next++;
     node->leaf = true;
+    node->firstPoint = nextPoint;
+    nextPoint += points.size();
     GridPosition low(INT64_MAX), high(INT64_MIN);
     std::vector<GridPosition> places;
     for (const TestPoint& point : points)
@@ -112,6 +114,7 @@ public:
   FramePlan plan;
   std::shared_ptr<ResolvedStyle> style;
   NodeIndex next = 0;
+  std::uint64_t nextPoint = 0;
 };
 
 /// Points on a wavy surface over [-1, 1]^2.

@@ -103,6 +103,11 @@ public:
       request_.styles.emplace_back();
       request_.styles.back().assign(layer.styles.begin(), layer.styles.end());
       demand.columns.layers.push_back(layer.columns());
+      LayerLimits limits;
+      limits.visible = layer.visible(); // or hidden nodes count as points of the complete view
+      limits.errorFactor = layer.errorFactor;
+      limits.share = layer.budgetShare;
+      demand.layers.push_back(limits);
     }
     request_.shading = sheet.frameShading();
     const Bounds box = store->description().bounds;

@@ -234,6 +234,21 @@ struct Scene
   }
 };
 
+/// Points and triangles that a frame hands to GL.
+inline int primitivesOf(Scene& scene)
+{
+  scene.window->MakeCurrent();
+  GLuint query = 0;
+  glGenQueries(1, &query);
+  glBeginQuery(GL_PRIMITIVES_GENERATED, query);
+  scene.window->Render();
+  glEndQuery(GL_PRIMITIVES_GENERATED);
+  GLuint count = 0;
+  glGetQueryObjectuiv(query, GL_QUERY_RESULT, &count);
+  glDeleteQueries(1, &query);
+  return static_cast<int>(count);
+}
+
 /// Counts what `of` reports from now on; `count` outlives it.
 inline void countEvents(vtkObject* of, unsigned long event, int& count)
 {

@@ -126,7 +126,7 @@ TEST(SoftwareBackend, FlatGroundBetweenTwoColoursHasThatOfOpenGL)
   }
 }
 
-/// Floats of heights below an eye at 100 metres are coarser than what the entries differ by.
+/// Floats of heights below an eye at 1,000 metres are 0.06 mm apart, entries 0.15 mm.
 TEST(SoftwareBackend, HeightsFarBelowTheEyeHaveTheColoursOfOpenGL)
 {
   Scene scene(storeOf("ripples", 60 * 60,
@@ -149,9 +149,9 @@ TEST(SoftwareBackend, HeightsFarBelowTheEyeHaveTheColoursOfOpenGL)
     table->SetTableValue(entry, entry % 2, 1.0 - entry % 2, 1.0);
   }
   scene.mapper->SetLookupTable(table);
-  scene.lookFrom({ 0.3, -2.0, 101.3 }, { 0.0, 0.0, 0.0 });
-  scene.renderer->GetActiveCamera()->SetViewAngle(1.5);
-  scene.renderer->GetActiveCamera()->SetClippingRange(50.0, 150.0);
+  scene.lookFrom({ 0.3, -2.0, 1013.7 }, { 0.0, 0.0, 0.0 });
+  scene.renderer->GetActiveCamera()->SetViewAngle(0.15);
+  scene.renderer->GetActiveCamera()->SetClippingRange(900.0, 1100.0);
   const Picture gl = scene.draw();
   scene.mapper->SetBackendToSoftware();
   EXPECT_GT(gl.lit(), 10000);

@@ -26,7 +26,7 @@ std::set<SplatVariant> shapes()
   std::set<SplatVariant> all;
   for (int shape = 0; shape < 5; ++shape)
   {
-    for (int bits = 0; bits < 32; ++bits)
+    for (int bits = 0; bits < 64; ++bits)
     {
       SplatVariant one;
       one.square = shape == 0;
@@ -36,6 +36,7 @@ std::set<SplatVariant> shapes()
       one.second = (bits & 4) != 0;
       one.lit = (bits & 8) != 0 && !one.second;
       one.ids = (bits & 16) != 0 && !one.second;
+      one.follows = (bits & 32) != 0 && one.ids;
       one.shaped = true;
       one.normals = shape > 1;
       all.insert(one);

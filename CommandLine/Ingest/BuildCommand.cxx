@@ -61,6 +61,7 @@ void BuildCommand::declare(CLI::App& program)
       "A small store beside the output, to look at while it is built: auto or none (auto)")
     ->check(knownWords({ "auto", "none" }));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
+  declareTiles();
   addOnError(*app_, options_.onFault, &options_.wholeInputs);
   sourceChoice_.declare(*app_);
   passes_.declare(*app_);
@@ -152,6 +153,10 @@ Result<void> BuildCommand::run()
   if (attributes_ != "all")
   {
     options_.attributes = splitList(attributes_);
+  }
+  if (tiles_)
+  {
+    return buildTiles();
   }
   Result<OpenedInputs> inputs = openSources();
   if (!inputs)

@@ -3,6 +3,7 @@
 #include "BuildPasses.h"
 #include "Command.h"
 #include "SourceChoice.h"
+#include "TilesBuild.h"
 
 #include "pointfront/Build/StoreBuilder.h"
 #include "pointfront/Points/PointSource.h"
@@ -15,7 +16,7 @@
 namespace pointfront
 {
 
-/// `pointfront build`: point files -> one store.
+/// `pointfront build`: point files -> one store, or a collection of tiles.
 class BuildCommand final : public Command
 {
 public:
@@ -23,6 +24,13 @@ public:
   Result<void> run() override;
 
 private:
+  void declareTiles();
+  Result<void> buildTiles();
+  /// The options that decide about the bytes of tiles, as they were given.
+  nlohmann::json tileSettings() const;
+  /// One step of --only, and what it prints.
+  Result<void> runStep(TilesBuild& build);
+  Result<void> tell(const TilesReport& report) const;
   /// Opens every input, but for those to skip; warns of what was wrong and survived.
   Result<OpenedInputs> openSources() const;
   /// Passes, preview and build, with progress on stderr. `sources` becomes what the passes gave.
@@ -42,6 +50,9 @@ private:
   std::string layers_; ///< empty: by class if any point is classified
   double precision_ = 0.0;
   bool json_ = false;
+  bool tiles_ = false;
+  std::string tileEdge_ = "auto";
+  std::string only_; ///< a step of a build of tiles; empty: all
 };
 
 /// The keys of `build --json`; with `skips` also those of inputs that were left out.

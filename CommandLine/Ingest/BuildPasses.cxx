@@ -64,12 +64,17 @@ std::vector<std::string> BuildPasses::inputsAmongImages(
   return inputs;
 }
 
-Result<AttributePasses> BuildPasses::passes() const
+PassChoice BuildPasses::choice() const
 {
   PassChoice choice = choice_;
   normals_.fill(choice);
   heights_.fill(choice);
-  return chosenPasses(choice);
+  return choice;
+}
+
+Result<AttributePasses> BuildPasses::passes() const
+{
+  return chosenPasses(choice());
 }
 
 } // namespace pointfront

@@ -23,6 +23,7 @@ public:
   /// Takes what is a point file by its extension back from the options that take all names behind
   /// them: `build --color-from ortho.tif survey.laz` means an image and an input.
   std::vector<std::string> inputsAmongImages(const std::vector<std::string>& pointExtensions);
+  PassChoice choice() const;
   /// Errors  those of chosenPasses().
   Result<AttributePasses> passes() const;
 

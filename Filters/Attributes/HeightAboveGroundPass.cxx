@@ -5,6 +5,7 @@
 
 #include "pointfront/Neighbourhood/PointReading.h"
 #include "pointfront/Neighbourhood/TileSearch.h"
+#include "pointfront/Points/KnownRegion.h"
 
 #include <algorithm>
 
@@ -75,7 +76,8 @@ Result<PointSources> HeightAboveGroundPass::apply(
   const InputOrder order(sources);
   cells_ = 0;
   WorkCrew crew(threadsOf(resources), resources.progress);
-  const Result<bool> ground = hasGround(sources, order, crew);
+  const Result<bool> ground =
+    options_.classified ? Result<bool>(*options_.classified) : hasGround(sources, order, crew);
   if (!ground)
   {
     return ground.error();
@@ -115,7 +117,8 @@ Result<PointSources> HeightAboveGroundPass::aboveLowest(
   }
   cells_ = lowest->positions.size();
   const auto ground = std::make_shared<const Ground>(std::move(*lowest));
-  const ValueSource heights = [ground](const SourceChunk&, const PointBatch& batch,
+  KnownRegion* const known = resources.known;
+  const ValueSource heights = [ground, known](const SourceChunk&, const PointBatch& batch,
                                 std::byte* values) -> Result<void>
   {
     NeighbourList list(groundNeighbours);
@@ -129,6 +132,10 @@ Result<PointSources> HeightAboveGroundPass::aboveLowest(
         list.begin(ground->places);
         ground->index.search(batch.positions[i], list);
         collectNear(ground->places, list, groundNeighbours, near);
+        if (known != nullptr)
+        {
+          known->note(batch.positions[i], list.full() ? list.bound() : infinity);
+        }
       }
       feature.compute(batch.positions[i], near, values + i * sizeof(float));
     }

@@ -4,12 +4,16 @@
 
 #include <atomic>
 #include <cstdint>
+#include <optional>
 
 namespace pointfront
 {
 
 struct GroundOptions
 {
+  /// Whether a point of the cloud is of class 2, if the sources are a part of it; nothing: looked
+  /// for in them.
+  std::optional<bool> classified;
   double cell = 10.0; ///< world units: edge of the cells whose lowest points are taken as ground
   std::uint64_t tilePoints = 1u << 17;
 };

@@ -46,6 +46,11 @@ Result<void> writeHeights(
 }
 } // namespace
 
+double LocalHeightPass::reach() const
+{
+  return LocalMean::reach(radius_);
+}
+
 Result<PointSources> LocalHeightPass::apply(
   PointSources sources, const PassResources& resources) const
 {

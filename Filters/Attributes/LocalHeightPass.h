@@ -25,6 +25,7 @@ public:
   {
   }
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
+  double reach() const override;
 
 private:
   double radius_;

@@ -46,6 +46,7 @@ public:
   {
   }
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
+  double reach() const override { return options_.radius > 0.0 ? options_.radius : infinity; }
   std::vector<std::string> findings() const override;
 
 private:

@@ -25,6 +25,7 @@ public:
   /// `classes`: these only; nothing: all.
   explicit ScanNormalsPass(std::optional<std::vector<std::uint8_t>> classes);
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
+  double reach() const override { return 0.0; }
   std::vector<std::string> findings() const override; ///< complete when the points are read
 
 private:

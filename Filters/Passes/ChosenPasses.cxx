@@ -105,6 +105,7 @@ Result<AttributePasses> chosenPasses(const PassChoice& choice)
   {
     GroundOptions options;
     options.cell = choice.groundCell;
+    options.classified = choice.groundClassified;
     passes.push_back(std::make_unique<HeightAboveGroundPass>(options));
   }
   return passes;

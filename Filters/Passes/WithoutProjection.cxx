@@ -51,6 +51,7 @@ std::string statedSystem(const SourceDescription& description)
 class SameSystemPass final : public AttributePass
 {
 public:
+  double reach() const override { return 0.0; }
   Result<PointSources> apply(PointSources sources, const PassResources&) const override
   {
     const SourceDescription* first = nullptr;

@@ -73,7 +73,8 @@ Result<void> StoreBuild::prepare()
   }
   auto reference = commonReferenceSystem(sources_);
   auto schema = commonSchema(sources_, options_.attributes);
-  auto grid = chooseGrid(sources_, options_.precision);
+  auto grid =
+    options_.grid ? givenGrid(sources_, *options_.grid) : chooseGrid(sources_, options_.precision);
   if (!reference || !schema || !grid)
   {
     return !reference ? reference.error() : !schema ? schema.error() : grid.error();
@@ -122,7 +123,8 @@ ColumnGuess StoreBuild::columnGuess() const
   const bool deep = options_.colourDepth == ColourDepth::ByFile &&
     std::any_of(sources_.begin(), sources_.end(),
       [](const auto& source) { return source->description().deepColours; });
-  guess.mayBeNarrow = options_.colourDepth != ColourDepth::Sixteen && !deep;
+  guess.mayBeNarrow =
+    options_.colourDepth != ColourDepth::Sixteen && !deep && !options_.wideColours;
   for (std::size_t c = 0; c < common_.schema.size(); ++c)
   {
     // Means of equal values are these values, where sums are exact; not of normals.

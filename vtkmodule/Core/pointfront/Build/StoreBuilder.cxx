@@ -69,7 +69,8 @@ Error StoreBuild::tooLarge() const
 Result<void> StoreBuild::cutIntoParts()
 {
   crew_.beginPhase("sorting", points_.kept, sortShare);
-  auto colours = storedColours(sources_, common_, columns_, points_, options_.colourDepth);
+  auto colours =
+    storedColours(sources_, common_, columns_, points_, options_.colourDepth, options_.wideColours);
   if (!colours)
   {
     return colours.error();

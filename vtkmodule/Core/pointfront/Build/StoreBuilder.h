@@ -4,6 +4,7 @@
 #include "pointfront/Base/Result.h"
 #include "pointfront/Build/OpenedInputs.h"
 #include "pointfront/Points/PointSource.h"
+#include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
 
 #include <cstdint>
@@ -55,6 +56,11 @@ struct BuildOptions
   /// Attributes to store, by name; nothing: all.
   std::optional<std::vector<std::string>> attributes;
   ColourDepth colourDepth = ColourDepth::ByFile;
+  /// The grid of the coordinates, for a store that is a part of a larger cloud; nothing: chosen
+  /// from the sources and the precision.
+  std::optional<QuantisationGrid> grid;
+  /// The larger cloud has colours of 16 bits: those of 8 bits are widened here too (ByFile).
+  bool wideColours = false;
   bool overwrite = false; ///< false: an existing output is an Error
   /// Behaviour for an input that has points of which none can be stored.
   OnFault onFault = OnFault::Stop;

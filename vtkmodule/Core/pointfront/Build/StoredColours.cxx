@@ -14,7 +14,7 @@ bool hasNarrowColours(const std::vector<std::unique_ptr<PointSource>>& sources,
 
 Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSource>>& sources,
   const CommonSchema& common, const RecordColumns& columns, const IngestedPoints& points,
-  ColourDepth depth)
+  ColourDepth depth, bool wideElsewhere)
 {
   const auto& largest = points.largestColour;
   for (std::size_t s = 0; s < sources.size(); ++s)
@@ -28,7 +28,7 @@ Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSourc
   }
   StoredColours stored;
   const auto column = wideColourColumn(common.schema);
-  bool wide = depth == ColourDepth::Sixteen;
+  bool wide = depth == ColourDepth::Sixteen || (depth == ColourDepth::ByFile && wideElsewhere);
   for (std::size_t s = 0; s < sources.size(); ++s)
   {
     wide = wide || largest[s] > 255 ||

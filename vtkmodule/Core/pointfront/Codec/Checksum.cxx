@@ -12,6 +12,11 @@ std::uint32_t checksumOf(const std::byte* data, std::size_t size)
   return static_cast<std::uint32_t>(XXH3_64bits(data, size) & 0xffffffffu);
 }
 
+std::uint64_t contentHash(const std::byte* data, std::size_t size, std::uint64_t seed)
+{
+  return XXH3_64bits_withSeed(data, size, seed);
+}
+
 bool matchesChecksum(const std::byte* data, std::size_t size, std::uint32_t checksum)
 {
 #if defined(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION)

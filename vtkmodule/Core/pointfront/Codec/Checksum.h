@@ -10,6 +10,9 @@ namespace pointfront
 /// Finds accidents (a flipped bit, a lost page), not forgeries: decoders stay safe without it.
 std::uint32_t checksumOf(const std::byte* data, std::size_t size);
 
+/// XXH3-64 of bytes, to tell contents apart; `seed`: the hash of what came before.
+std::uint64_t contentHash(const std::byte* data, std::size_t size, std::uint64_t seed = 0);
+
 /// Every reader asks this. Always true in a build for fuzzing: a fuzzer cannot guess checksums, and
 /// what lies behind them must be safe without.
 bool matchesChecksum(const std::byte* data, std::size_t size, std::uint32_t checksum);

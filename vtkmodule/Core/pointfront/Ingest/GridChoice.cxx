@@ -321,6 +321,14 @@ void placeExtent(const Bounds& bounds, GridChoice& choice)
 }
 } // namespace
 
+Result<GridChoice> givenGrid(const Sources& sources, const QuantisationGrid& grid)
+{
+  GridChoice choice;
+  choice.grid = grid;
+  placeExtent(declaredBounds(sources), choice);
+  return choice;
+}
+
 Result<GridChoice> chooseGrid(const Sources& sources, const std::optional<double>& precision)
 {
   constexpr double coarsest = 1e12;

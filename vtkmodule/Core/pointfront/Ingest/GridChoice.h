@@ -36,4 +36,8 @@ struct GridChoice
 Result<GridChoice> chooseGrid(
   const std::vector<std::unique_ptr<PointSource>>& sources, const std::optional<double>& precision);
 
+/// A grid that is decided already.
+Result<GridChoice> givenGrid(
+  const std::vector<std::unique_ptr<PointSource>>& sources, const QuantisationGrid& grid);
+
 } // namespace pointfront

@@ -1,8 +1,10 @@
+// Longer than 450 lines: both rounds of a search are of one class and its state.
 #include "pointfront/Neighbourhood/NearestNeighbours.h"
 
 #include "pointfront/Base/Infinity.h"
 #include "pointfront/Neighbourhood/NeighbourCluster.h"
 #include "pointfront/Neighbourhood/TileSearch.h"
+#include "pointfront/Points/KnownRegion.h"
 
 #include <algorithm>
 #include <atomic>
@@ -45,13 +47,14 @@ class Search
 {
 public:
   Search(const PointTiles& tiles, const NeighbourhoodOptions& options, const IndexMaker& makeIndex,
-    const NeighbourhoodFeature& feature, PointColumn& column, WorkCrew& crew)
+    const NeighbourhoodFeature& feature, PointColumn& column, WorkCrew& crew, KnownRegion* known)
     : tiles_(tiles)
     , options_(options)
     , makeIndex_(makeIndex)
     , feature_(feature)
     , column_(column)
     , crew_(crew)
+    , known_(known)
   {
   }
 
@@ -65,6 +68,7 @@ private:
     TileWork& work, std::size_t begin, std::size_t end, NeighbourCluster& cluster) const;
   bool compute(TileWork& work, std::uint32_t point, const NeighbourList& list) const;
   double squaredReach(const NeighbourList& list, const glm::dvec3& p) const;
+  void note(const glm::dvec3& p, double squaredReach) const;
   Result<void> store(const std::vector<TilePoint>& points, const std::vector<bool>& finished,
     const std::vector<std::byte>& values) const;
   Result<void> finishUnfinished();
@@ -77,6 +81,7 @@ private:
   const NeighbourhoodFeature& feature_;
   PointColumn& column_;
   WorkCrew& crew_;
+  KnownRegion* known_; ///< null: the sources are the whole cloud
   std::atomic<std::size_t> nextTile_{ 0 };
   std::mutex mutex_; // guards what follows
   std::vector<UnfinishedPoint> unfinished_;
@@ -229,6 +234,7 @@ void Search::searchRun(
     if (orderFree && cluster.searchUnordered(position, work.places, reach) &&
       reach < squaredClearance(work.box, position))
     {
+      note(position, reach);
       collectNear(work.references, work.places, position, work.near);
       feature_.compute(position, work.near, work.values.data() + i * bytes);
       work.finished[i] = true;
@@ -261,9 +267,22 @@ bool Search::compute(TileWork& work, std::uint32_t point, const NeighbourList& l
   if (options_.neighbours == 0)
   {
     std::sort(work.near.begin(), work.near.end(), nearer);
+    note(p, options_.radius * options_.radius);
+  }
+  else
+  {
+    note(p, list.full() ? list.bound() : infinity);
   }
   feature_.compute(p, work.near, work.values.data() + point * feature_.bytes());
   return true;
+}
+
+void Search::note(const glm::dvec3& p, double squaredReach) const
+{
+  if (known_ != nullptr)
+  {
+    known_->note(p, squaredReach);
+  }
 }
 
 double Search::squaredReach(const NeighbourList& list, const glm::dvec3& p) const
@@ -336,6 +355,13 @@ Result<void> Search::finishUnfinished()
   for (std::size_t i = 0; i < unfinished_.size(); ++i)
   {
     points[i] = unfinished_[i].point;
+    std::uint32_t count = 0;
+    for (const NearPoint& near : found[i])
+    {
+      count += near.count;
+    }
+    note(
+      points[i].position, count < options_.neighbours ? infinity : found[i].back().squaredDistance);
     feature_.compute(points[i].position, found[i], values.data() + i * feature_.bytes());
   }
   crew_.advance(points.size());
@@ -430,7 +456,7 @@ Result<std::unique_ptr<PointColumn>> computeFromNeighbours(const PointSources& s
   WorkCrew crew(*threads, resources.progress);
   crew.beginPhase(options.phase, 0, 2 * readShare);
   crew.beginPhase(options.phase, order.points(), searchShare);
-  Search search(**tiles, options, makeIndex, feature, **column, crew);
+  Search search(**tiles, options, makeIndex, feature, **column, crew, resources.known);
   const std::size_t mostUnfinished =
     std::max<std::uint64_t>(1024, memoryOf(resources) / 8 / unfinishedBytes);
   if (Result<void> done = search.run(mostUnfinished); !done)

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/PointSource.h"
@@ -13,6 +14,7 @@ namespace pointfront
 {
 
 using PointSources = std::vector<std::unique_ptr<PointSource>>;
+class KnownRegion;
 
 /// The resources that a pass may use.
 struct PassResources
@@ -21,6 +23,9 @@ struct PassResources
   unsigned threads = 0; ///< 0: one a core
   std::string temporaryFolder; ///< for files that are unlinked as soon as they are open
   ProgressFunction progress; ///< may be empty; false cancels
+  /// For sources that are a part of a cloud: gets how far each value looks. Null: they are all of
+  /// it. Outlives the sources that a pass gives.
+  KnownRegion* known = nullptr;
 };
 
 /// Gives points attributes that their source lacks: normals, heights, colours, other coordinates.
@@ -46,6 +51,10 @@ public:
   /// False if apply() only wraps the sources. True if it reads points, which takes time: the first
   /// preview of the cloud is then shown before.
   virtual bool readsPoints() const { return true; }
+  /// How far away, horizontally, points can lie that a value depends on, in world units. 0: it
+  /// depends on points of its own chunk only; infinite: neighbours are looked for until they are
+  /// found, and PassResources::known is told how far that was.
+  virtual double reach() const { return readsPoints() ? infinity : 0.0; }
   /// Memory in bytes that the sources it gives keep while they are read (a cache of images). The
   /// build has that much less of resources.memoryBytes.
   virtual std::uint64_t heldBytes(const PassResources& resources) const

@@ -45,6 +45,9 @@ struct PassChoice
   bool localHeight = false;
   double localHeightRadius = 5.0; ///< 1e-3 to 1e6
   bool heightAboveGround = false;
+  /// Whether a point of the cloud is of class 2, for inputs that are a part of it; nothing: looked
+  /// for.
+  std::optional<bool> groundClassified;
   double groundCell = 10.0; ///< where no point is of class 2: of the lowest points; 1e-3 to 1e6
 };
 

@@ -1,0 +1,43 @@
+#pragma once
+
+#include "pointfront/Mosaic/InputSurvey.h"
+#include "pointfront/Points/AttributePass.h"
+#include "pointfront/Threads/WorkCrew.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace pointfront
+{
+
+/// The inputs of a tile, in the order of all inputs.
+struct TileInputs
+{
+  PointSources sources;
+  /// Numbers of the chunks that can have points in the tile or its margin, of each source. None:
+  /// the source only says what attributes and systems the cloud has.
+  std::vector<std::vector<std::uint64_t>> chunks;
+  /// Whether the largest 16-bit colour of each source as a whole has more than 8 bits.
+  std::vector<bool> deepColours;
+};
+
+/// The points of a tile and its margin, decoded once and kept in an unnamed file in the temporary
+/// folder: sources that may be read again and again.
+/// Order   one source for each input, in its order; chunks in theirs.
+/// Threads sources as PointSource promises.
+/// Errors  those of the inputs; Unwritable; Cancelled.
+struct TilePieces
+{
+  PointSources sources;
+  std::vector<std::vector<std::uint64_t>> own; ///< points of each chunk that are the tile's own
+
+  /// `known`: the box whose points are taken; it encloses the tile.
+  static Result<TilePieces> of(const TileInputs& inputs, const TileGrid& grid,
+    const TileIndex& tile, const Bounds& known, const PassResources& resources, WorkCrew& crew);
+};
+
+/// The sources without what is not the tile's own. `own`: as TilePieces counted.
+PointSources ownPoints(PointSources sources, std::vector<std::vector<std::uint64_t>> own,
+  const TileGrid& grid, const TileIndex& tile);
+
+} // namespace pointfront

@@ -162,7 +162,7 @@ class Restart(ToolTest):
         self.assertEqual(made["tiles_built"], made["tiles"])
         draw = random.Random(7)
         kills = 0
-        for _ in range(40):
+        for _ in range(8):
             process = subprocess.Popen([TOOL, *map(str, self.arguments("killed"))],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             try:

@@ -8,7 +8,7 @@ using namespace pointfront;
 
 namespace
 {
-Bounds columns(double west, double south, double east, double north)
+Bounds columnsBetween(double west, double south, double east, double north)
 {
   Bounds box;
   box.low = { west, south, -infinity };
@@ -18,7 +18,7 @@ Bounds columns(double west, double south, double east, double north)
 
 TEST(KnownRegion, SaysHowFarAValueLookedBeyondIt)
 {
-  KnownRegion region(columns(0, 0, 10, 10), columns(-5, -5, 15, 15));
+  KnownRegion region(columnsBetween(0, 0, 10, 10), columnsBetween(-5, -5, 15, 15));
   region.note({ 1, 5, 900 }, 5.9 * 5.9); // 6 to the west
   EXPECT_EQ(region.squaredMissing(), 0.0);
   region.note({ 1, 5, 900 }, 7.0 * 7.0);
@@ -29,24 +29,25 @@ TEST(KnownRegion, SaysHowFarAValueLookedBeyondIt)
 
 TEST(KnownRegion, TakesAReachUpToItsEdgeAsTooFar)
 {
-  KnownRegion region(columns(0, 0, 10, 10), columns(-5, -5, 15, 15));
+  KnownRegion region(columnsBetween(0, 0, 10, 10), columnsBetween(-5, -5, 15, 15));
   region.note({ 0, 5, 0 }, 25.0);
   EXPECT_GT(region.squaredMissing(), 0.0);
 }
 
 TEST(KnownRegion, DoesNotMindWhereNoValueIsWanted)
 {
-  KnownRegion region(columns(0, 0, 10, 10), columns(-5, -5, 15, 15));
+  KnownRegion region(columnsBetween(0, 0, 10, 10), columnsBetween(-5, -5, 15, 15));
   region.note({ -1, 5, 0 }, infinity);
   EXPECT_EQ(region.squaredMissing(), 0.0);
 }
 
 TEST(KnownRegion, IsEnoughIfItIsTheWholeCloud)
 {
-  KnownRegion all(columns(0, 0, 10, 10), columns(-infinity, -infinity, infinity, infinity));
+  KnownRegion all(
+    columnsBetween(0, 0, 10, 10), columnsBetween(-infinity, -infinity, infinity, infinity));
   all.note({ 5, 5, 0 }, infinity);
   EXPECT_EQ(all.squaredMissing(), 0.0);
-  KnownRegion part(columns(0, 0, 10, 10), columns(-5, -5, 15, 15));
+  KnownRegion part(columnsBetween(0, 0, 10, 10), columnsBetween(-5, -5, 15, 15));
   part.note({ 5, 5, 0 }, infinity); // fewer points than neighbours
   EXPECT_EQ(part.squaredMissing(), infinity);
 }

@@ -5,6 +5,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -46,7 +47,10 @@ public:
   {
   }
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
-  double reach() const override { return options_.radius > 0.0 ? options_.radius : infinity; }
+  double reach() const override
+  {
+    return options_.radius > 0.0 ? options_.radius : std::numeric_limits<double>::infinity();
+  }
   std::vector<std::string> findings() const override;
 
 private:

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "pointfront/Base/Infinity.h"
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/PointSource.h"
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -54,7 +54,10 @@ public:
   /// How far away, horizontally, points can lie that a value depends on, in world units. 0: it
   /// depends on points of its own chunk only; infinite: neighbours are looked for until they are
   /// found, and PassResources::known is told how far that was.
-  virtual double reach() const { return readsPoints() ? infinity : 0.0; }
+  virtual double reach() const
+  {
+    return readsPoints() ? std::numeric_limits<double>::infinity() : 0.0;
+  }
   /// Memory in bytes that the sources it gives keep while they are read (a cache of images). The
   /// build has that much less of resources.memoryBytes.
   virtual std::uint64_t heldBytes(const PassResources& resources) const

@@ -7,15 +7,13 @@ a sphere of ParaView's, and of a cloud.
 import ctypes
 import json
 import os
-import time
 
 from paraview import simple
 
-from session import Session
+from session import AT_REST, Session
 
 session = Session("panel_width")
 said = session.found
-LONGEST = 60  # seconds
 
 
 @session.guarded
@@ -30,7 +28,10 @@ def start():
     sphere = simple.Sphere()
     simple.Show(sphere, view)
     simple.SetActiveSource(sphere)
-    begun = time.monotonic()
+    seen, rows = [], []  # the panel and the rows of its table at each tick
+
+    def rests(states):
+        return len(states) >= AT_REST and all(one == states[-1] for one in states[-AT_REST:])
 
     def show_cloud():
         simple.Delete(sphere)
@@ -40,28 +41,33 @@ def start():
         simple.SetActiveSource(shown.reader)
         view.SMProxy.StillRender()
 
-    def tick():
-        found = json.loads(probe.pointfrontPanel())
-        seconds = time.monotonic() - begun
-        if "sphere" not in said and seconds > 4:
-            said["sphere"] = found
-            show_cloud()
-        tables = found.get("tables", {}).values()
-        if "cloud" in said:
-            said["written"] = list(simple.GetDisplayProperties(
-                simple.GetActiveSource(), view).ClassStyles)
-            if said["written"][4:5] == ["5"] or seconds > LONGEST:
-                session.end()
-        elif seconds > 10 and len(tables) == 3 and all(table["heads"] for table in tables):
-            said["cloud"] = found
-            # A row is written into the empty one, and one is emptied.
-            cells = ((2, 0, b"5"), (2, 1, b"hidden"), (1, 0, b""), (1, 2, b""))
-            for row, column, text in cells:
-                scene.require(probe.pointfrontWrite(b"ClassStyles", row, column, text), "no cell")
-        if seconds > LONGEST:
-            raise AssertionError("no panel with tables: %s" % found)
+    def write_cells():
+        """A row is written into the empty one, and one is emptied."""
+        for row, column, text in ((2, 0, b"5"), (2, 1, b"hidden"), (1, 0, b""), (1, 2, b"")):
+            scene.require(probe.pointfrontWrite(b"ClassStyles", row, column, text), "no cell")
 
-    session.every_tick(view, tick)
+    def tick():
+        if "cloud" in said:
+            display = simple.GetDisplayProperties(simple.GetActiveSource(), view)
+            rows.append(list(display.ClassStyles))
+            said["written"] = rows[-1]
+            if rows[-1][4:5] == ["5"] and rests(rows):
+                session.end()
+            return
+        seen.append(json.loads(probe.pointfrontPanel()))
+        if not rests(seen):
+            return
+        tables = seen[-1].get("tables", {}).values()
+        if "sphere" not in said:
+            if seen[-1].get("content", 0) > 0:
+                said["sphere"] = seen[-1]
+                seen.clear()
+                show_cloud()
+        elif len(tables) == 3 and all(table["heads"] for table in tables):
+            said["cloud"] = seen[-1]
+            write_cells()
+
+    session.every_tick(view, tick, lambda: "a panel with tables, or a row: %s" % seen[-1:])
     view.SMProxy.StillRender()
 
 

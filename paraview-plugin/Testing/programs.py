@@ -12,7 +12,7 @@ import time
 HERE = os.path.dirname(os.path.abspath(__file__))
 # Seconds for all programs of a run together: below the test's own limit, to be ended here. A night
 # of random tests (docs/developer/random-tests.md) takes as long as it takes.
-LIMIT = 240 if int(os.environ.get("POINTFRONT_RANDOM_COUNT", "40")) <= 40 else 100000
+LIMIT = 850 if int(os.environ.get("POINTFRONT_RANDOM_COUNT", "40")) <= 40 else 100000
 
 
 def tool(*arguments):

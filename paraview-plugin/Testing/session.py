@@ -3,12 +3,15 @@
 import json
 import os
 import sys
+import time
 import traceback
 
 from paraview import simple
 
 OUTPUT = os.environ["POINTFRONT_OUTPUT"]
 TICK = 200  # milliseconds
+LONGEST = 700  # seconds until a session that hangs says what it waits for
+AT_REST = 5  # ticks of the event loop: what is the same so often has come to rest
 
 
 class Session:
@@ -44,13 +47,17 @@ class Session:
         simple.GetSettingsProxy("GeneralSettings").ShowWelcomeDialog = 0
         simple.LoadPlugin(os.environ["POINTFRONT_PLUGIN"], remote=False, ns=globals())
 
-    def every_tick(self, view, action):
-        """Calls `action` in the view's event loop, again and again; it runs while a user would."""
+    def every_tick(self, view, action, waits_for=lambda: "its end"):
+        """Calls `action` in the view's event loop, again and again; it runs while a user would.
+        `waits_for` says what has not come when the session hangs."""
         interactor = view.SMProxy.GetInteractor()
+        begun = time.monotonic()
 
         @self.guarded
         def tick():
             action()
+            if time.monotonic() - begun > LONGEST:
+                raise AssertionError("it waits for %s: %s" % (waits_for(), self.found))
             interactor.CreateOneShotTimer(TICK)
 
         interactor.AddObserver("TimerEvent", tick)

@@ -45,6 +45,8 @@ def write_png(path, picture):
 def unfilter(raw, height, width):
     stride = 3 * width
     rows = numpy.frombuffer(raw, numpy.uint8).reshape(height, stride + 1)
+    if rows[:, 0].max() > 2:
+        return unfilter_diagonally(rows, height, width)
     picture = numpy.zeros((height, width, 3), numpy.uint8)
     above = numpy.zeros((width, 3), numpy.uint8)
     for y in range(height):
@@ -53,32 +55,44 @@ def unfilter(raw, height, width):
             line = row.copy()
         elif kind == 1:
             line = numpy.cumsum(row, axis=0, dtype=numpy.uint8)
-        elif kind == 2:
-            line = row + above
         else:
-            line = unfilter_pixelwise(kind, row, above)
+            line = row + above
         picture[y] = above = line
     return picture
 
 
-def unfilter_pixelwise(kind, row, above):
-    """Average (3) and Paeth (4) need the pixel before."""
-    line = []
-    before, corner = (0, 0, 0), (0, 0, 0)
-    for value, over in zip(row.tolist(), above.tolist()):
-        if kind == 3:
-            guess = [(a + b) // 2 for a, b in zip(before, over)]
-        else:
-            guess = [paeth(a, b, c) for a, b, c in zip(before, over, corner)]
-        before = [(v + g) & 255 for v, g in zip(value, guess)]
-        corner = over
-        line.append(before)
-    return numpy.array(line, numpy.uint8)
+def unfilter_diagonally(rows, height, width):
+    """Average (3) and Paeth (4) need the pixel before, too: so all pixels of a diagonal at once.
 
-
-def paeth(a, b, c):
-    distance = [(abs(b - c), 0, a), (abs(a - c), 1, b), (abs(a + b - 2 * c), 2, c)]
-    return min(distance)[2]
+    Row y is at column step - y. Arrays over rows have one above the first, which is black."""
+    kinds = rows[:, 0]
+    filtered = rows[:, 1:].reshape(height, width, 3)
+    skewed = numpy.zeros((width + height, height, 3), numpy.int16)  # step, row, channel
+    for y in range(height):
+        skewed[y:y + width, y] = filtered[y]
+    is_left, is_above, is_mean, is_paeth = (
+        numpy.repeat((kinds == kind)[:, None], 3, axis=1) for kind in (1, 2, 3, 4))
+    older, before, now = (numpy.zeros((height + 1, 3), numpy.int16) for _ in range(3))
+    for step in range(width + height - 1):
+        low, high = max(0, step - width + 1), min(height, step + 1)
+        left, above, corner = before[low + 1:high + 1], before[low:high], older[low:high]
+        # The distances of left + above - corner from each of the three.
+        to_left, to_above = above - corner, left - corner
+        to_corner = numpy.abs(to_left + to_above)
+        to_left, to_above = numpy.abs(to_left), numpy.abs(to_above)
+        paeth = numpy.where(to_above <= to_corner, above, corner)
+        numpy.copyto(paeth, left, where=(to_left <= to_above) & (to_left <= to_corner))
+        pixels = left * is_left[low:high] + above * is_above[low:high]
+        numpy.copyto(pixels, (left + above) >> 1, where=is_mean[low:high])
+        numpy.copyto(pixels, paeth, where=is_paeth[low:high])
+        pixels += skewed[step, low:high]
+        pixels &= 255
+        skewed[step, low:high] = now[low + 1:high + 1] = pixels
+        older, before, now = before, now, older
+    picture = numpy.empty((height, width, 3), numpy.uint8)
+    for y in range(height):
+        picture[y] = skewed[y:y + width, y]
+    return picture
 
 
 def share_alike(one, other, tolerance=8):

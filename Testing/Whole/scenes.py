@@ -7,7 +7,7 @@ import json
 import os
 
 from pictures import read_png
-from tool import DATA, ToolTest
+from tool import DATA, SharedStoreTest, ToolTest
 
 BACKEND = os.environ.get("POINTFRONT_BACKEND", "software")
 TRIM = DATA / "las/real/autzen_trim.las"
@@ -32,6 +32,10 @@ class SceneTest(ToolTest):
         path = self.folder / "stats.json"
         picture = self.picture(*arguments, "--stats", path, **options)
         return picture, json.loads(path.read_text())
+
+
+class SharedSceneTest(SceneTest, SharedStoreTest):
+    """The same, of one store."""
 
 
 def with_backend(arguments):

@@ -9,7 +9,7 @@ import unittest
 import numpy
 
 from pictures import share_alike
-from scenes import BACKEND, SIZE, TRIM, SceneTest
+from scenes import BACKEND, SIZE, TRIM, SceneTest, SharedSceneTest
 from tool import DATA, write_las
 
 RED, GREEN, BLUE, WHITE = (255, 0, 0), (0, 255, 0), (0, 0, 255), (255, 255, 255)
@@ -27,10 +27,10 @@ def quadrants():
     return points
 
 
-class KnownPictures(SceneTest):
-    def setUp(self):
-        super().setUp()
-        self.store = self.build(write_las(self.folder / "plane.las", quadrants()))
+class KnownPictures(SharedSceneTest):
+    @classmethod
+    def make_store(cls, folder):
+        return [write_las(folder / "plane.las", quadrants())]
 
     def colour_at(self, picture, x, y):
         """At a share of width from the left and of height from the top."""
@@ -109,11 +109,10 @@ class InPlace(SceneTest):
             self.assertGreater(share_alike(coarse, ours), 0.5, view)
 
 
-class ChosenClasses(SceneTest):
-    def setUp(self):
-        super().setUp()
-        self.store = self.folder / "layers.pfront"
-        self.succeed("build", TRIM, "-o", self.store, "--layers", "class")
+class ChosenClasses(SharedSceneTest):
+    @classmethod
+    def make_store(cls, folder):
+        return [TRIM, "--layers", "class"]
 
     def drawn(self, *arguments):
         picture, statistics = self.statistics(
@@ -149,12 +148,15 @@ class ChosenClasses(SceneTest):
         self.assertGreaterEqual(alike, 1.0 if SOFTWARE else 0.995)
 
 
-class Styles(SceneTest):
+class Styles(SharedSceneTest):
     """Options become a style sheet; how it is read and resolved is tested beside it."""
+
+    @classmethod
+    def make_store(cls, folder):
+        return [write_las(folder / "plane.las", quadrants())]
 
     def setUp(self):
         super().setUp()
-        self.store = self.build(write_las(self.folder / "plane.las", quadrants()))
         camera = {"position": [50, 50, 40], "focal_point": [52, 49, 0], "view_up": [0, 1, 0],
                   "view_angle": 30}
         self.camera = self.folder / "camera.json"
@@ -247,10 +249,10 @@ class Styles(SceneTest):
         self.assertEqual(statistics["attributes_read"], [])
 
 
-class Refinement(SceneTest):
-    def setUp(self):
-        super().setUp()
-        self.store = self.build(DATA / "classified/lidarhd_rgb_nir_698k.laz")
+class Refinement(SharedSceneTest):
+    @classmethod
+    def make_store(cls, folder):
+        return [DATA / "classified/lidarhd_rgb_nir_698k.laz"]
 
     def test_statistics(self):
         _, statistics = self.statistics(self.store)

@@ -91,6 +91,28 @@ class ToolTest(unittest.TestCase):
         return sorted(entry.name for entry in self.folder.iterdir())
 
 
+class SharedStoreTest(ToolTest):
+    """Tests of a class that only read one store, `store`: it is built once, in a folder of the
+    class."""
+
+    @classmethod
+    def make_store(cls, folder):
+        """The inputs and options of `build`; files in the folder stay while the class runs."""
+        raise NotImplementedError
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        folder = WORK / f"of-{cls.__module__}.{cls.__name__}"
+        shutil.rmtree(folder, ignore_errors=True)
+        folder.mkdir(parents=True)
+        cls.addClassCleanup(shutil.rmtree, folder, ignore_errors=True)
+        cls.store = folder / "cloud.pfront"
+        made = pointfront("build", *cls.make_store(folder), "-o", cls.store)
+        if made.status != 0:
+            raise AssertionError(made)
+
+
 def write_las(path, points, scale=0.01, centred=False):
     """A LAS 1.2 file of format 2; points are (x, y, z, red, green, blue), colours 0 to 65535.
     Integers count from the lowest coordinate, or from 2^31 steps above it."""

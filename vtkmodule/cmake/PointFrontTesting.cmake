@@ -171,11 +171,13 @@ function (pointfront_add_unit_tests library)
 endfunction ()
 
 # pointfront_add_module_test(<executable> MODULES <module>... [SUITES <suite>...]
-#   [READS_DATA <suite>.<test>...] [MEASURES <suite>.<test>...])
+#   [READS_DATA <suite>.<test>...] [MEASURES <suite>.<test>...] [SAME_CODE <suite>.<test>...])
 # One executable of all Cxx/*.cxx of the calling folder. With SUITES its tests draw: each is one
 # test on an X server; without, each test is found by itself.
+# SAME_CODE: those of code that knows nothing of the VTK beside it. Where POINTFRONT_TEST_KERNEL is
+# off, another preset runs them, and those of MEASURES.
 function (pointfront_add_module_test name)
-  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES;READS_DATA;MEASURES")
+  cmake_parse_arguments(PARSE_ARGV 1 test "" "" "MODULES;SUITES;SAME_CODE;READS_DATA;MEASURES")
   find_package(GTest REQUIRED)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/Cxx/*.cxx")
   add_executable(${name} ${sources})
@@ -187,11 +189,19 @@ function (pointfront_add_module_test name)
   if (test_SUITES)
     pointfront_name_leaks(${name})
     set(left_out "")
-    if (POINTFRONT_SANITIZE AND test_MEASURES)
-      list(JOIN test_MEASURES ":" left_out)
+    if (NOT POINTFRONT_TEST_KERNEL)
+      set(left_out ${test_SAME_CODE} ${test_MEASURES})
+    elseif (POINTFRONT_SANITIZE)
+      set(left_out ${test_MEASURES})
+    endif ()
+    if (left_out)
+      list(JOIN left_out ":" left_out)
       string(PREPEND left_out "-")
     endif ()
     foreach (suite IN LISTS test_SUITES)
+      if (NOT POINTFRONT_TEST_KERNEL AND "${suite}.*" IN_LIST test_SAME_CODE)
+        continue ()
+      endif ()
       pointfront_add_display_test(NAME "${name}.${suite}"
         COMMAND "$<TARGET_FILE:${name}>" "--gtest_filter=${suite}.*${left_out}")
     endforeach ()

@@ -56,7 +56,8 @@ class Commands(ToolTest):
         self.run_file(USER / "command-line.md")
 
     def test_other_pages(self):
-        for name in ("README.md", "paraview.md", "python.md", "cmake.md", "publishing.md"):
+        for name in ("README.md", "paraview.md", "python.md", "cmake.md", "cluster.md",
+                     "publishing.md"):
             self.workplace = getattr(self, "workplace", None) or Workplace(self.folder)
             for begin, text in commands(USER / name):
                 with self.subTest(block=f"{name}:{begin}"):

@@ -82,9 +82,9 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
     configure_file("${from}/${file}.in" "${to}/${file}" @ONLY)
   endforeach ()
   foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _arrays.py _calls.py _classes.py
-      _clouds.py _controls.py _doors.py _errors.py _extracts.py _far.py _gate.py _kernel.py
-      _lines.py _meshes.py _orbit.py _page.py _pictures.py _plotting.py _progress.py _queries.py
-      _remote.py _serve.py _stream.py _window.py py.typed)
+      _clouds.py _cluster.py _controls.py _doors.py _errors.py _extracts.py _far.py _gate.py
+      _kernel.py _lines.py _meshes.py _orbit.py _page.py _pictures.py _plotting.py _progress.py
+      _queries.py _remote.py _serve.py _stream.py _window.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
     list(APPEND package_files "${file}")
   endforeach ()
@@ -95,6 +95,18 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
     set(python_tests Controls Gate Package Points Waiting Without_VTK Writing)
     if (POINTFRONT_REMOTE)
       list(APPEND python_tests Addresses)
+    endif ()
+    execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import distributed, psutil"
+      RESULT_VARIABLE no_distributed OUTPUT_QUIET ERROR_QUIET)
+    if (no_distributed OR NOT POINTFRONT_NORMALS)
+      pointfront_leave_out("Python.Cluster")
+      message(STATUS "Python.Cluster is left out: it needs Python packages distributed and psutil "
+        "(Debian: python3-distributed) and POINTFRONT_NORMALS")
+    else ()
+      add_test(NAME Python.Cluster
+        COMMAND "${CMAKE_COMMAND}" -E env
+          "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
+          "${Python3_EXECUTABLE}" -B "${from}/Testing/test_cluster.py")
     endif ()
     foreach (name IN LISTS python_tests)
       string(TOLOWER "${name}" test)

@@ -1,0 +1,171 @@
+"""`python3 -m pointfront cluster build`: the bytes of `build --tiles`, by workers that may die."""
+
+import contextlib
+import hashlib
+import json
+import os
+import pathlib
+import random
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+import distributed
+import psutil
+
+from pointfront import _cluster
+from pointfront._host import TOOL
+
+OPTIONS = ("--tile", "40", "--normals", "pca", "--height-above-ground", "--progress", "none")
+COMMAND = (sys.executable, "-B", "-m", "pointfront", "cluster", "build")
+
+
+def tree(folder):
+    files = [*(folder / "tiles").iterdir(), *folder.glob("*.pfcollection")]
+    return {file.suffix + file.name * (file.suffix == ".pfront"):
+            hashlib.sha256(file.read_bytes()).hexdigest() for file in files}
+
+
+def running(folder):
+    """Processes of the tool that work for a folder."""
+    found = []
+    for process in psutil.process_iter():
+        with contextlib.suppress(psutil.Error):
+            words = process.cmdline()
+            if str(folder) in words and "--only" in words and words[0] == str(TOOL):
+                found.append(process)
+    return found
+
+
+class Cluster(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = tempfile.TemporaryDirectory()
+        cls.root = pathlib.Path(cls.place.name).resolve()
+        cls.inputs = cls.root / "inputs"
+        cls.inputs.mkdir()
+        whole, store = cls.root / "whole.las", cls.root / "whole.pfront"
+        cls.tool("generate", "--points", "60000", "-o", whole, "--seed", "3")
+        cls.tool("build", whole, "-o", store, "--progress", "none")
+        west, south, _, east, north, _ = json.loads(cls.tool("info", store, "--json"))["bounds"]
+        middle = 0.4 * west + 0.6 * east
+        for name, low, high in (("west", west - 1, middle), ("east", middle + 0.0005, east + 1)):
+            cls.tool("export", store, "-o", cls.inputs / f"{name}.las", "--box",
+                     f"{low},{south - 1},-1000,{high},{north + 1},1000")
+        cls.report = json.loads(cls.tool("build", cls.inputs, "-o", cls.root / "usual/land",
+                                         "--tiles", *OPTIONS, "--json"))
+        cls.expected = tree(cls.root / "usual/land")
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.place.cleanup()
+
+    @staticmethod
+    def tool(*arguments):
+        return subprocess.run([str(TOOL), *map(str, arguments)], check=True, capture_output=True,
+                              text=True).stdout
+
+    def setUp(self):
+        self.land = self.root / self.id().rsplit(".", maxsplit=1)[-1] / "land"
+
+    def words(self, *more):
+        return [*COMMAND, str(self.inputs), "-o", str(self.land), *OPTIONS, *more]
+
+    def build(self, *more, status=0):
+        done = subprocess.run(self.words(*more), capture_output=True, text=True, check=False,
+                              timeout=240)
+        self.assertEqual(done.returncode, status, done.stderr)
+        return done
+
+    def begun(self, *more, tiles=2):
+        """A build that is under way: some tiles are done."""
+        process = subprocess.Popen(self.words(*more), stdout=subprocess.DEVNULL,
+                                   stderr=subprocess.PIPE, text=True)
+        end = time.monotonic() + 120
+        while len(list((self.land / "work").glob("tile-*.json"))) < tiles:
+            self.assertIsNone(process.poll(), process.returncode)
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.02)
+        return process
+
+    def test_two_workers_give_the_bytes_of_one_process(self):
+        told = json.loads(self.build("--local", "2", "--json").stdout)
+        self.assertEqual(tree(self.land), self.expected)
+        for key in ("points_read", "points_stored", "points_rejected", "tiles"):
+            self.assertEqual(told[key], self.report[key])
+        logs = list((self.land / "work/logs").iterdir())
+        self.assertEqual(len(logs), 2 + told["tiles"])
+        self.assertIn("status 0", logs[0].read_text())
+        self.assertIn("points in", self.build("--local", "1").stdout)  # all is done
+        again = json.loads(self.tool("build", self.inputs, "-o", self.land, "--tiles", *OPTIONS,
+                                     "--json"))
+        self.assertEqual(again["tiles_built"], 0)
+
+    def test_workers_of_a_scheduler(self):
+        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,
+                                      memory_limit=0) as cluster:
+            self.build("--scheduler", cluster.scheduler_address, "--threads", "1")
+            address = cluster.scheduler_address
+        self.assertEqual(tree(self.land), self.expected)
+        said = self.build("--scheduler", address, status=1).stderr
+        self.assertIn("pointfront cluster build: ", said)
+
+    def test_killed_workers_change_nothing(self):
+        process = self.begun("--local", "2", tiles=1)
+        draw = random.Random(2)
+        killed = 0
+        while process.poll() is None and killed < 4:
+            with contextlib.suppress(psutil.Error):
+                workers = [child for child in psutil.Process(process.pid).children(recursive=True)
+                           if "spawn_main" in " ".join(child.cmdline())]
+                if workers:
+                    draw.choice(workers).kill()
+                    killed += 1
+            with contextlib.suppress(subprocess.TimeoutExpired):
+                process.wait(2)
+        process.wait(180)
+        said = process.stderr.read()
+        process.stderr.close()
+        self.assertGreater(killed, 0)
+        if process.returncode != 0:  # so many deaths that it gave up: the same command goes on
+            self.assertIn("the same command goes on", said)
+            self.build("--local", "2")
+        self.assertEqual(tree(self.land), self.expected)
+
+    def test_a_killed_client_and_a_signal(self):
+        process = self.begun("--local", "2")
+        process.kill()
+        process.communicate()
+        process = self.begun("--local", "2", tiles=4)
+        process.send_signal(signal.SIGINT)
+        said = process.communicate(timeout=60)[1]
+        self.assertEqual(process.returncode, 130, said)
+        self.assertIn("the same command goes on", said)
+        end = time.monotonic() + 20
+        while running(self.land) and time.monotonic() < end:
+            time.sleep(0.1)
+        self.assertEqual(running(self.land), [])
+        self.build("--local", "2")
+        self.assertEqual(tree(self.land), self.expected)
+
+    def test_a_step_that_fails_is_told_and_logged(self):
+        self.tool("build", self.inputs, "-o", self.land, "--tiles", *OPTIONS)
+        said = _cluster.run_step("tile:99_99", ["build", str(self.inputs), "-o", str(self.land),
+                                                "--tiles", *OPTIONS[:-2]],
+                                 str(self.land), os.getcwd(), str(self.land / "stop"))
+        self.assertIn("there is no such tile", said)
+        log = (self.land / "work/logs/tile-99_99.log").read_text()
+        self.assertIn("there is no such tile", log)
+        self.assertIn("status 1", log)
+        said = self.build("--local", "1", "--normals-k", "20", status=1).stderr
+        self.assertIn("other options", said)
+        usage = subprocess.run(COMMAND[:-1], capture_output=True, text=True, check=False)
+        self.assertEqual(usage.returncode, 2)
+        self.assertIn("usage", usage.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -2,6 +2,7 @@
 
 #include "WholeFile.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <filesystem>
@@ -17,12 +18,16 @@ bool sameName(const std::string& one, const std::string& other)
   return fs::absolute(one).lexically_normal() == fs::absolute(other).lexically_normal();
 }
 
-/// A cloud that does not open is told when it is drawn.
+/// A cloud that does not open is told when it is drawn. Behind an address lies no file here.
 std::vector<std::string> filesOf(const std::vector<std::string>& clouds)
 {
   std::vector<std::string> files = clouds;
   for (const std::string& cloud : clouds)
   {
+    if (isAddress(cloud))
+    {
+      continue;
+    }
     if (const auto opened = StoredCloudFormats::ofProcess().open(cloud))
     {
       const std::vector<std::string> behind = (*opened)->files();

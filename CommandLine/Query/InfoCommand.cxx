@@ -49,7 +49,7 @@ std::optional<SourceTree> treeOf(const std::string& path)
     return std::nullopt;
   }
   SourceTree tree;
-  const auto cloud = formats.open(path);
+  const auto cloud = formats.openWhole(path); // a file here, whose points are looked at, too
   if (!cloud)
   {
     tree.fault = cloud.error().what;

@@ -48,13 +48,6 @@ SplatMeasure splatMeasure(const StoreDescription& store, const Hierarchy& hierar
   return byNode ? SplatMeasure::PerNode : SplatMeasure::None;
 }
 
-/// False where nodes are counted when their tiles are opened: a layer has points and no nodes.
-bool knowsNodes(const StoreDescription& store)
-{
-  return std::none_of(store.layers.begin(), store.layers.end(),
-    [](const Layer& layer) { return layer.pointCount > 0 && layer.nodeCount == 0; });
-}
-
 nlohmann::ordered_json countOrNull(bool known, std::uint32_t count)
 {
   return known ? nlohmann::ordered_json(count) : nlohmann::ordered_json();
@@ -106,6 +99,14 @@ const char* nameOf(SplatMeasure measure)
 }
 } // namespace
 
+std::string nodesText(const StoreDescription& store, const Hierarchy& hierarchy)
+{
+  return store.knowsNodes()
+    ? std::to_string(hierarchy.nodeCount()) + " nodes in " + std::to_string(store.levels) +
+      " levels"
+    : "uncounted nodes in at least " + std::to_string(store.levels) + " levels";
+}
+
 nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy& hierarchy)
 {
   nlohmann::ordered_json object;
@@ -116,10 +117,11 @@ nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy&
     store.crsWkt.empty() ? nlohmann::ordered_json() : nlohmann::ordered_json(store.crsWkt);
   object["structure"] = store.structure;
   object["refinement"] = refinementName(store.refinement);
-  const bool counted = knowsNodes(store);
+  const bool counted = store.knowsNodes();
   object["nodes"] = countOrNull(counted, hierarchy.nodeCount());
   object["levels"] = store.levels;
-  object["bytes"] = counted ? nlohmann::ordered_json(store.fileBytes) : nlohmann::ordered_json();
+  object["bytes"] = counted || store.fileBytes > 0 ? nlohmann::ordered_json(store.fileBytes)
+                                                   : nlohmann::ordered_json();
   object["attributes"] = attributesJson(heldSchema(store));
   const NormalFacts normals = normalFacts(store);
   object["normals"] = { { "source", normals.source }, { "of", normals.of } };
@@ -160,11 +162,10 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
        << store.grid.scale.z << "\n  crs         "
        << (store.crsWkt.empty() ? "not known" : systemName(store.crsWkt)) << "\n  hierarchy   "
        << store.structure << ", refinement " << refinementName(store.refinement) << ", "
-       << (knowsNodes(store) ? std::to_string(hierarchy.nodeCount()) : "uncounted") << " nodes in "
-       << store.levels << " levels\n  file        "
-       << (knowsNodes(store)
+       << nodesText(store, hierarchy) << "\n  file        "
+       << (store.knowsNodes() || store.fileBytes > 0
               ? byteSizeText(store.fileBytes) + " (" + std::to_string(store.fileBytes) + " bytes)"
-              : "tiles that are opened when they are looked into")
+              : "files that are opened when they are looked into")
        << ", version " << store.version << ", by " << store.generator << "\n  splat sizes ";
   const SplatMeasure measure = splatMeasure(store, hierarchy);
   text << (measure == SplatMeasure::PerPoint ? "measured per point"
@@ -178,7 +179,7 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
   {
     text << "\n  layer       " << layer.name << " (class " << layer.objectClass
          << "): " << layer.pointCount << " points";
-    if (knowsNodes(store))
+    if (store.knowsNodes())
     {
       text << " in " << layer.nodeCount << " nodes";
     }

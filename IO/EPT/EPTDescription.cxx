@@ -270,56 +270,79 @@ std::optional<std::string> addPage(const EPTPage& page, std::map<std::string, st
 }
 } // namespace
 
-Result<std::vector<EPTNode>> readEPTHierarchy(
-  const std::string& eptPath, std::optional<std::string> first)
+std::vector<Result<EPTPage>> readEPTPages(
+  const std::string& eptPath, const std::vector<std::string>& keys)
+{
+  std::vector<SmallFile> files;
+  for (const std::string& key : keys)
+  {
+    files.push_back({ pathOfEPTPage(eptPath, key), mostEPTPageBytes });
+  }
+  const ReadStop never{ false };
+  const std::vector<Result<RawBytes>> read = readSmallFiles(files, never);
+  std::vector<Result<EPTPage>> pages;
+  for (std::size_t p = 0; p < read.size(); ++p)
+  {
+    pages.push_back(read[p]
+        ? parseEPTPage(
+            std::string_view(reinterpret_cast<const char*>(read[p]->data.get()), read[p]->size),
+            files[p].path)
+        : Result<EPTPage>(
+            makeError(read[p].error().kind, read[p].error().what + "; the tree refers to it")));
+  }
+  return pages;
+}
+
+Result<EPTHierarchy> readEPTHierarchy(
+  const std::string& eptPath, EPTDepth depth, std::optional<std::string> first)
 {
   std::map<std::string, std::uint32_t> nodes;
   std::set<std::string> seen{ "0-0-0-0" };
   std::vector<std::string> level{ "0-0-0-0" };
-  while (!level.empty())
+  constexpr std::size_t few = 8; // pages that are read with the first: small trees are then whole
+  std::size_t rounds = 0;
+  const auto enough = [&]
   {
-    std::vector<SmallFile> files;
-    for (const std::string& key : level)
+    return depth == EPTDepth::FirstPoints && (rounds > 1 || level.size() > few) &&
+      std::any_of(nodes.begin(), nodes.end(), [](const auto& node) { return node.second > 0; });
+  };
+  while (!level.empty() && !enough())
+  {
+    std::vector<Result<EPTPage>> pages;
+    if (first)
     {
-      files.push_back({ pathOfEPTPage(eptPath, key), mostEPTPageBytes });
+      pages.push_back(parseEPTPage(*std::exchange(first, std::nullopt), pathOfEPTPage(eptPath)));
     }
-    const ReadStop never{ false };
-    const std::vector<Result<RawBytes>> pages =
-      first ? std::vector<Result<RawBytes>>() : readSmallFiles(files, never);
+    else
+    {
+      pages = readEPTPages(eptPath, level);
+    }
     std::vector<std::string> below;
     for (std::size_t p = 0; p < level.size(); ++p)
     {
-      const std::string& path = files[p].path;
-      if (!first && !pages[p])
+      if (!pages[p])
       {
-        return makeError(pages[p].error().kind, pages[p].error().what + "; the tree refers to it");
+        return pages[p].error();
       }
-      const std::string_view text = first
-        ? std::string_view(*first)
-        : std::string_view(reinterpret_cast<const char*>(pages[p]->data.get()), pages[p]->size);
-      const Result<EPTPage> page = parseEPTPage(text, path);
-      if (!page)
+      if (const std::optional<std::string> twice = addPage(*pages[p], nodes, seen, below))
       {
-        return page.error();
-      }
-      const std::optional<std::string> twice = addPage(*page, nodes, seen, below);
-      if (twice)
-      {
-        return bad(path, "the page '" + *twice + "' is referred to twice");
+        return bad(
+          pathOfEPTPage(eptPath, level[p]), "the page '" + *twice + "' is referred to twice");
       }
     }
-    first.reset();
     level = std::move(below);
+    ++rounds;
   }
-  std::vector<EPTNode> list;
+  EPTHierarchy found;
+  found.pages = std::move(level);
   for (const auto& [key, count] : nodes)
   {
     if (count > 0)
     {
-      list.push_back({ key, count });
+      found.nodes.push_back({ key, count });
     }
   }
-  return list;
+  return found;
 }
 
 } // namespace pointfront

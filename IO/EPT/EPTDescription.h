@@ -64,12 +64,26 @@ struct EPTNode
   std::uint32_t points = 0;
 };
 
-/// All nodes of the hierarchy beside the ept.json at `path`, sorted by their keys. Pages of one
-/// level are read together. `first`: the text of its first page, if that was read already. Errors
-/// of its pages: NotFound, Unreadable, BadFormat (a page that refers to itself, more points
+/// A hierarchy as far as it was read.
+struct EPTHierarchy
+{
+  std::vector<EPTNode> nodes; ///< those with points, sorted by their keys
+  std::vector<std::string> pages; ///< keys of pages that were not read
+};
+enum class EPTDepth
+{
+  Whole,
+  FirstPoints ///< the first page, few that it refers to, and on to one that has a node with points
+};
+/// The hierarchy beside the ept.json at `path`. Pages of one level are read together. `first`: the
+/// text of its first page, if that was read already.
+/// Errors  of its pages: NotFound, Unreadable, BadFormat (a page that refers to itself, more points
 ///         in a node than its file could have).
-Result<std::vector<EPTNode>> readEPTHierarchy(
-  const std::string& path, std::optional<std::string> first = std::nullopt);
+Result<EPTHierarchy> readEPTHierarchy(
+  const std::string& path, EPTDepth depth, std::optional<std::string> first = std::nullopt);
+/// Some of its pages, by their keys, together. Errors  each its own, as above.
+std::vector<Result<EPTPage>> readEPTPages(
+  const std::string& path, const std::vector<std::string>& keys);
 
 /// The place of the hierarchy's first page, and of others by their keys.
 std::string pathOfEPTPage(const std::string& path, const std::string& key = "0-0-0-0");

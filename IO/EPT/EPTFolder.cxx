@@ -25,7 +25,7 @@ Result<std::string> textOf(const Result<RawBytes>& file)
 }
 } // namespace
 
-Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path)
+Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path, EPTDepth depth)
 {
   auto tree = std::make_shared<EPTFolder>();
   tree->path = path;
@@ -61,16 +61,20 @@ Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path
   {
     return makeError(page.error().kind, page.error().what + "; the tree refers to it");
   }
-  Result<std::vector<EPTNode>> nodes = readEPTHierarchy(
-    tree->place, read.size() > 1 ? std::optional<std::string>(*page) : std::nullopt);
-  if (!nodes)
+  // The values of other trees are found by looking at all of them.
+  const bool told =
+    tree->description.encoding == EPTEncoding::Laszip && tree->description.points > 0;
+  Result<EPTHierarchy> hierarchy = readEPTHierarchy(tree->place, told ? depth : EPTDepth::Whole,
+    read.size() > 1 ? std::optional<std::string>(*page) : std::nullopt);
+  if (!hierarchy)
   {
-    return nodes.error();
+    return hierarchy.error();
   }
-  tree->nodes = std::move(*nodes);
+  tree->nodes = std::move(hierarchy->nodes);
+  tree->pages = std::move(hierarchy->pages);
   if (isAddress(path) && !tree->nodes.empty())
   {
-    Result<RawBytes> first = tree->readNode(0);
+    Result<RawBytes> first = tree->readNode(tree->nodes.front());
     if (!first)
     {
       return first.error();
@@ -80,32 +84,32 @@ Result<std::shared_ptr<const EPTFolder>> EPTFolder::open(const std::string& path
   return std::shared_ptr<const EPTFolder>(std::move(tree));
 }
 
-std::string EPTFolder::fileOf(std::uint64_t node) const
+std::string EPTFolder::fileOf(const EPTNode& node) const
 {
   const char* const ending = description.encoding == EPTEncoding::Laszip ? ".laz"
     : description.encoding == EPTEncoding::Binary                        ? ".bin"
                                                                          : ".zst";
-  return beside(place, "ept-data/" + nodes[static_cast<std::size_t>(node)].key + ending);
+  return beside(place, "ept-data/" + node.key + ending);
 }
 
-std::uint64_t EPTFolder::mostBytesOf(std::uint64_t node) const
+std::uint64_t EPTFolder::mostBytesOf(const EPTNode& node) const
 {
-  const std::uint64_t points = nodes[static_cast<std::size_t>(node)].points;
-  return mostBesidePoints + 2 * points * description.recordBytes();
+  return mostBesidePoints + std::uint64_t(2) * node.points * description.recordBytes();
 }
 
-Result<RawBytes> EPTFolder::readNode(std::uint64_t node) const
+Result<RawBytes> EPTFolder::readNode(const EPTNode& node) const
 {
   const ReadStop never{ false };
   return std::move(readNodes({ node }, never).front());
 }
 
 std::vector<Result<RawBytes>> EPTFolder::readNodes(
-  const std::vector<std::uint64_t>& wanted, const ReadStop& stop) const
+  const std::vector<EPTNode>& wanted, const ReadStop& stop) const
 {
-  const auto held = [this](std::uint64_t node) { return node == 0 && first.size > 0; };
+  const auto held = [this](const EPTNode& node)
+  { return first.size > 0 && node.key == nodes.front().key; };
   std::vector<SmallFile> files;
-  for (const std::uint64_t node : wanted)
+  for (const EPTNode& node : wanted)
   {
     if (!held(node))
     {
@@ -116,7 +120,7 @@ std::vector<Result<RawBytes>> EPTFolder::readNodes(
   std::vector<Result<RawBytes>> all;
   all.reserve(wanted.size());
   auto next = read.begin();
-  for (const std::uint64_t node : wanted)
+  for (const EPTNode& node : wanted)
   {
     if (!held(node))
     {

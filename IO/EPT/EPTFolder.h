@@ -20,24 +20,26 @@ struct EPTFolder
   std::string place; ///< the same, absolute
   std::uint64_t descriptionBytes = 0;
   EPTDescription description;
-  std::vector<EPTNode> nodes; ///< sorted by their keys
+  std::vector<EPTNode> nodes; ///< those of the pages that were read, sorted by their keys
+  std::vector<std::string> pages; ///< keys of pages of the hierarchy that were not read
   std::shared_ptr<const ByteSource> source; ///< source of the ept.json: how the files are read
-  RawBytes first; ///< only in a far tree: the file of node 0, which each reader needs several times
+  RawBytes first; ///< only in a far tree: the file of the first node, which each reader needs
+                  ///< several times
 
-  /// By the path of its ept.json.
+  /// By the path of its ept.json. Hierarchies of trees that are not of laszip are read whole.
   /// Errors  NotFound, Unreadable; those of EPTDescription and readEPTHierarchy().
-  static Result<std::shared_ptr<const EPTFolder>> open(const std::string& path);
+  static Result<std::shared_ptr<const EPTFolder>> open(
+    const std::string& path, EPTDepth depth = EPTDepth::Whole);
 
-  /// The file of a node, by its place in the list.
-  std::string fileOf(std::uint64_t node) const;
+  std::string fileOf(const EPTNode& node) const;
   /// Errors  those of readSmallFile(): a node has no more bytes than its points may take.
-  Result<RawBytes> readNode(std::uint64_t node) const;
+  Result<RawBytes> readNode(const EPTNode& node) const;
   /// Several, those of a far tree beside each other.
   std::vector<Result<RawBytes>> readNodes(
-    const std::vector<std::uint64_t>& wanted, const ReadStop& stop) const;
+    const std::vector<EPTNode>& wanted, const ReadStop& stop) const;
 
 private:
-  std::uint64_t mostBytesOf(std::uint64_t node) const;
+  std::uint64_t mostBytesOf(const EPTNode& node) const;
 };
 
 } // namespace pointfront

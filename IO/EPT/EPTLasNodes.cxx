@@ -11,13 +11,13 @@ Result<std::unique_ptr<EPTNodeDecoder>> EPTLasNodes::open(
   std::unique_ptr<EPTLasNodes> source(new EPTLasNodes);
   source->tree_ = std::move(tree);
   source->openNode_ = std::move(openNode);
-  const Result<RawBytes> bytes = source->tree_->readNode(0);
+  const Result<RawBytes> bytes = source->tree_->readNode(source->tree_->nodes.front());
   if (!bytes)
   {
     return bytes.error();
   }
   const Result<std::unique_ptr<PointSource>> first =
-    source->openNode_(source->tree_->fileOf(0), *bytes);
+    source->openNode_(source->tree_->fileOf(source->tree_->nodes.front()), *bytes);
   if (!first)
   {
     return first.error();
@@ -28,19 +28,19 @@ Result<std::unique_ptr<EPTNodeDecoder>> EPTLasNodes::open(
   description.format = "EPT of " + description.format;
   description.declaredBounds = Bounds();
   description.warnings.clear();
-  description.pointCount = 0;
+  // Not all nodes are known where pages of the hierarchy were not read.
+  description.pointCount = source->tree_->pages.empty() ? 0 : source->tree_->description.points;
   for (const EPTNode& node : source->tree_->nodes)
   {
-    description.pointCount += node.points;
+    description.pointCount += source->tree_->pages.empty() ? node.points : 0;
   }
   return std::unique_ptr<EPTNodeDecoder>(std::move(source));
 }
 
 Result<void> EPTLasNodes::decode(
-  std::uint64_t number, const RawBytes& bytes, PointBatch& batch) const
+  const EPTNode& node, const RawBytes& bytes, PointBatch& batch) const
 {
-  const EPTNode& node = tree_->nodes[static_cast<std::size_t>(number)];
-  const std::string path = tree_->fileOf(number);
+  const std::string path = tree_->fileOf(node);
   const Result<std::unique_ptr<PointSource>> file = openNode_(path, bytes);
   if (!file)
   {

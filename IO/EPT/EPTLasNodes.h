@@ -20,7 +20,7 @@ public:
     std::shared_ptr<const EPTFolder> tree, EPTFormat::Opener openNode);
 
   const SourceDescription& description() const override { return description_; }
-  Result<void> decode(std::uint64_t node, const RawBytes& file, PointBatch& batch) const override;
+  Result<void> decode(const EPTNode& node, const RawBytes& file, PointBatch& batch) const override;
 
 private:
   EPTLasNodes() = default;

@@ -33,13 +33,13 @@ public:
     return std::unique_ptr<EPTNodeDecoder>(new EPTRecordNodes(std::move(*points), table));
   }
   const SourceDescription& description() const override { return points_->description(); }
-  Result<void> decode(std::uint64_t node, const RawBytes& file, PointBatch& batch) const override
+  Result<void> decode(const EPTNode& node, const RawBytes& file, PointBatch& batch) const override
   {
     TableBlock block;
     Result<void> done = records_.decode(node, file, points_->wanted(), block);
     if (done)
     {
-      points_->convert(block, static_cast<std::size_t>(records_.chunkRows(node)), batch);
+      points_->convert(block, node.points, batch);
     }
     return done;
   }

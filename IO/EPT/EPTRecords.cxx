@@ -55,22 +55,21 @@ Result<void> EPTRecords::checkFiles() const
   {
     return {}; // a round trip each: who reads a file finds out
   }
-  for (std::uint64_t chunk = 0; chunk < chunkCount(); ++chunk)
+  for (const EPTNode& node : tree_->nodes)
   {
-    const std::string file = tree_->fileOf(chunk);
+    const std::string file = tree_->fileOf(node);
     std::error_code failure;
     const std::uintmax_t bytes = std::filesystem::file_size(file, failure);
     if (failure)
     {
       return makeError(Error::Kind::NotFound, file + ": cannot be read, but the hierarchy has it");
     }
-    const std::uintmax_t expected = chunkRows(chunk) * description.recordBytes();
+    const std::uintmax_t expected = node.points * description.recordBytes();
     if (description.encoding == EPTEncoding::Binary && bytes != expected)
     {
       return makeError(Error::Kind::Truncated,
-        file + ": has " + std::to_string(bytes) + " bytes, its " +
-          std::to_string(chunkRows(chunk)) + " points " + std::to_string(expected) +
-          "; get a whole copy");
+        file + ": has " + std::to_string(bytes) + " bytes, its " + std::to_string(node.points) +
+          " points " + std::to_string(expected) + "; get a whole copy");
     }
   }
   return {};
@@ -97,16 +96,17 @@ Result<std::unique_ptr<EPTRecords>> EPTRecords::open(std::shared_ptr<const EPTFo
 Result<void> EPTRecords::read(
   std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {
-  const Result<RawBytes> file = tree_->readNode(chunk);
-  return file ? decode(chunk, *file, wanted, block) : Result<void>(file.error());
+  const EPTNode& node = tree_->nodes[static_cast<std::size_t>(chunk)];
+  const Result<RawBytes> file = tree_->readNode(node);
+  return file ? decode(node, *file, wanted, block) : Result<void>(file.error());
 }
 
-Result<void> EPTRecords::decode(std::uint64_t chunk, const RawBytes& file,
+Result<void> EPTRecords::decode(const EPTNode& node, const RawBytes& file,
   const std::vector<bool>& wanted, TableBlock& block) const
 {
-  const std::size_t points = chunkRows(chunk);
+  const std::size_t points = node.points;
   const EPTDescription& description = tree_->description;
-  const std::string path = tree_->fileOf(chunk);
+  const std::string path = tree_->fileOf(node);
   const std::string_view bytes(reinterpret_cast<const char*>(file.data.get()), file.size);
   const std::size_t stride = description.recordBytes();
   const Result<std::vector<std::byte>> records =

@@ -36,7 +36,7 @@ public:
   Result<void> read(
     std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const override;
   /// The same, of the bytes of the node's file.
-  Result<void> decode(std::uint64_t chunk, const RawBytes& file, const std::vector<bool>& wanted,
+  Result<void> decode(const EPTNode& node, const RawBytes& file, const std::vector<bool>& wanted,
     TableBlock& block) const;
   std::optional<QuantisationGrid> grid() const override { return tree_->description.grid(); }
 

@@ -31,8 +31,9 @@ public:
   }
   Result<void> read(std::uint64_t chunk, PointBatch& batch) const override
   {
-    const Result<RawBytes> file = tree_->readNode(chunk);
-    return file ? decoder_->decode(chunk, *file, batch) : Result<void>(file.error());
+    const EPTNode& node = tree_->nodes[static_cast<std::size_t>(chunk)];
+    const Result<RawBytes> file = tree_->readNode(node);
+    return file ? decoder_->decode(node, *file, batch) : Result<void>(file.error());
   }
 
 private:

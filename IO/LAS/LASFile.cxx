@@ -95,8 +95,9 @@ void dropOverlappingRecords(
 /// First bytes of a far file: header and records of most files, and the tables at the end of many.
 constexpr std::size_t headBytes = std::size_t(64) << 10;
 constexpr std::size_t tailBytes = std::size_t(256) << 10;
-/// Extended records, up to the end of the file, that are read without a look at them.
-constexpr std::uint64_t recordsAtOnceBytes = std::uint64_t(1) << 20;
+/// Extended records, up to the end of the file, that are read without a look at them. More are
+/// mostly a COPC's hierarchy, of which its reader needs some pages.
+constexpr std::uint64_t recordsAtOnceBytes = tailBytes;
 /// More of them are read one after the other, a round trip each.
 constexpr std::uint32_t mostFarRecords = 64;
 

@@ -25,23 +25,19 @@ struct COPCInfo
   std::uint64_t rootBytes = 0;
 };
 
-/// A node and the LAZ chunk that holds its points.
-struct COPCEntry
-{
-  ForeignNode node; ///< chunk: the entry's place in the list
-  std::uint64_t offset = 0;
-  std::uint32_t bytes = 0;
-};
-
 /// Errors  Unsupported: no COPC file; Corrupt: a record of another size.
 Result<COPCInfo> readCOPCInfo(const LASFile& file);
-/// All entries with points or without, of all pages. Pages of one level are read together.
-/// Errors  Corrupt, with the byte: pages outside of the file or referred to twice, chunks outside,
-///         counts that are none.
-Result<std::vector<COPCEntry>> readCOPCHierarchy(const LASFile& file, const COPCInfo& info);
+/// A page of the hierarchy, by its bytes at `offset` of a file of `fileBytes`. Nodes and pages have
+/// the place of their chunk or page.
+/// Errors  Corrupt, with the byte: chunks and pages outside of the file, counts that are none.
+Result<ForeignPage> parseCOPCPage(
+  ByteSpan page, std::uint64_t offset, std::uint64_t fileBytes, const std::string& path);
 
 /// COPC files as stored clouds: drawn, queried and exported as they are.
-/// Errors  of open(): those of LASFile, LAZCompression and the above; of the first points.
+/// Opening  reads a hierarchy of up to 256 KiB, and of a larger one its first page: the others are
+///          read when somebody looks into them. openWhole() reads them all, those of one level
+///          together.
+/// Errors   of open(): those of LASFile, LAZCompression and the above; of the first points.
 class COPCFormat final : public StoredCloudFormat
 {
 public:
@@ -49,6 +45,11 @@ public:
   /// By the record that must come first in the file.
   bool accepts(const std::string& path) const override;
   Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override;
+  Result<std::shared_ptr<const StoredCloud>> openWhole(const std::string& path) const override;
+
+private:
+  static Result<std::shared_ptr<const StoredCloud>> openTree(
+    const std::string& path, std::uint64_t mostBytes);
 };
 
 } // namespace pointfront

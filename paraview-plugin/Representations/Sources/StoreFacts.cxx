@@ -55,8 +55,10 @@ void addNumbers(vtkPolyData* data, const char* name, const std::vector<vtkIdType
 std::string structureOf(const StoredCloud& store)
 {
   const StoreDescription& about = store.description();
-  return about.structure + ", " + std::to_string(store.hierarchy()->nodeCount()) + " nodes, " +
-    std::to_string(about.levels) + " levels, " + std::to_string(about.fileBytes) + " bytes";
+  const std::string nodes =
+    about.knowsNodes() ? std::to_string(store.hierarchy()->nodeCount()) : "uncounted";
+  return about.structure + ", " + nodes + " nodes, " + std::to_string(about.levels) + " levels" +
+    (about.fileBytes > 0 ? ", " + std::to_string(about.fileBytes) + " bytes" : "");
 }
 
 /// The name of a coordinate reference system: the first text of its well-known text.

@@ -46,7 +46,7 @@ std::string refusalOf(const StoredCloud& cloud)
 Result<IncomingTile> openTile(const std::string& collection, const TileRequest& request)
 {
   Result<std::shared_ptr<const StoredCloud>> cloud =
-    StoredCloudFormats::ofProcess().open(request.path);
+    StoredCloudFormats::ofProcess().openWhole(request.path);
   if (!cloud)
   {
     return cloud.error();

@@ -126,10 +126,4 @@ Result<std::shared_ptr<const NodeRanges>> CloudWithNormals::nodeRanges(
     : std::shared_ptr<const NodeRanges>();
 }
 
-Result<std::shared_ptr<const StoredCloud>> FormatWithNormals::open(const std::string& path) const
-{
-  Result<std::shared_ptr<const StoredCloud>> cloud = format_->open(path);
-  return cloud ? CloudWithNormals::over(std::move(*cloud), normals_) : cloud;
-}
-
 } // namespace pointfront

@@ -71,9 +71,22 @@ public:
   }
   std::string name() const override { return format_->name(); }
   bool accepts(const std::string& path) const override { return format_->accepts(path); }
-  Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override;
+  Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override
+  {
+    return withNormals(format_->open(path));
+  }
+  Result<std::shared_ptr<const StoredCloud>> openWhole(const std::string& path) const override
+  {
+    return withNormals(format_->openWhole(path));
+  }
 
 private:
+  Result<std::shared_ptr<const StoredCloud>> withNormals(
+    Result<std::shared_ptr<const StoredCloud>> cloud) const
+  {
+    return cloud ? CloudWithNormals::over(std::move(*cloud), normals_) : cloud;
+  }
+
   std::shared_ptr<const StoredCloudFormat> format_;
   std::shared_ptr<const NodeNormals> normals_;
 };

@@ -22,8 +22,8 @@ public:
     , files_(std::move(files))
   {
   }
-  Result<RawBytes> fetch(std::uint64_t) const override { return RawBytes(0); }
-  std::size_t storedBytes(std::uint64_t) const override { return 0; }
+  Result<RawBytes> fetch(const ForeignNode&) const override { return RawBytes(0); }
+  std::size_t storedBytes(const ForeignNode&) const override { return 0; }
   Result<void> decode(const Part&, const RawBytes&, PointBatch& batch) const override
   {
     batch = points_;
@@ -100,7 +100,9 @@ Result<std::shared_ptr<const StoredCloud>> cloudOfPoints(
   content.setCube(content.source.declaredBounds);
   content.side = std::max({ content.side, step.x, step.y, step.z });
   content.spacing = spacingOf(content.source.declaredBounds, points.size());
-  content.nodes.push_back({ 0, 0, 0, 0, static_cast<std::uint32_t>(points.size()), 0 });
+  ForeignNode root;
+  root.points = static_cast<std::uint32_t>(points.size());
+  content.first.nodes = { root };
   content.reader = std::make_shared<const HeldPoints>(std::move(points), std::move(files));
   return ForeignTree::make(std::move(content));
 }

@@ -1,169 +1,290 @@
 #include "pointfront/InPlace/ForeignTable.h"
 
-#include "pointfront/Store/StoreFormat.h"
+#include "pointfront/Disk/StopOfReads.h"
+#include "pointfront/InPlace/ForeignTree.h"
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
-#include <map>
-#include <tuple>
+#include <mutex>
+#include <utility>
 
 namespace pointfront
 {
 namespace
 {
-constexpr std::int32_t deepest = 30; ///< so that cells have numbers of 32 bits
 constexpr double usualTicks = 128.0; ///< points along the root's side
-
-/// Level, then the path from the root: children of one node are neighbours.
-using CellKey = std::tuple<std::int32_t, std::int64_t, std::int64_t, std::int64_t>;
-
-struct Cell
-{
-  std::uint32_t points = 0;
-  std::uint64_t chunk = 0;
-  bool named = false;
-};
-
-Error bad(const ForeignTreeContent& content, const std::string& what)
-{
-  return makeError(Error::Kind::BadFormat, content.source.path + ": " + what);
-}
-
-std::string nameOf(const ForeignNode& node)
-{
-  return std::to_string(node.level) + "-" + std::to_string(node.x) + "-" + std::to_string(node.y) +
-    "-" + std::to_string(node.z);
-}
-
-bool isCell(const ForeignNode& node)
-{
-  if (node.level < 0 || node.level > deepest)
-  {
-    return false;
-  }
-  const std::int64_t cells = std::int64_t(1) << node.level;
-  return node.x >= 0 && node.y >= 0 && node.z >= 0 && node.x < cells && node.y < cells &&
-    node.z < cells;
-}
-
-float upward(double value)
-{
-  const auto rounded = static_cast<float>(value);
-  return rounded < value ? std::nextafter(rounded, std::numeric_limits<float>::max()) : rounded;
-}
-
-void setBox(Node& node, const Bounds& box)
-{
-  node.centre = box.centre();
-  const glm::dvec3 half = glm::max(box.high - node.centre, node.centre - box.low);
-  node.halfSize = { upward(half.x), upward(half.y), upward(half.z) };
-  node.radius = upward(glm::length(glm::dvec3(node.halfSize)));
-}
-
-/// All cells that are named, and those above them.
-Result<std::map<CellKey, Cell>> cellsOf(const ForeignTreeContent& content)
-{
-  std::map<CellKey, Cell> cells;
-  for (const ForeignNode& node : content.nodes)
-  {
-    if (!isCell(node))
-    {
-      return bad(content, "its node " + nameOf(node) + " is no cell of an octree");
-    }
-    if (node.points > maxNodePoints)
-    {
-      return bad(content,
-        "its node " + nameOf(node) + " claims " + std::to_string(node.points) +
-          " points; more than " + std::to_string(maxNodePoints) + " are not read at once");
-    }
-    Cell& cell = cells[{ node.level, node.x, node.y, node.z }];
-    if (cell.named)
-    {
-      return bad(content, "its node " + nameOf(node) + " is there twice");
-    }
-    cell = { node.points, node.chunk, true };
-    for (std::int32_t up = 1; up <= node.level; ++up)
-    {
-      cells[{ node.level - up, node.x >> up, node.y >> up, node.z >> up }];
-    }
-  }
-  return cells;
-}
+/// Pages that are read together from a far source.
+constexpr std::size_t pagesAtOnce = 32;
 } // namespace
 
-Result<ForeignTable> ForeignTable::make(const ForeignTreeContent& content, const glm::dvec3& margin)
+ForeignTable::ForeignTable(
+  const ForeignTreeContent& content, const ForeignCells& cells, ForeignPageRows first)
+  : reader_(content.reader)
+  , path_(content.source.path)
+  , claimed_(content.source.headerPointCount.value_or(0))
+  , cells_(cells)
+  , wanted_(std::make_unique<WantedParts>(WantedParts::Reading{ [this](std::size_t)
+      { return reader_->readCost().far() ? pagesAtOnce : 1; },
+      [this](const std::vector<std::size_t>& pages, const WantedParts::Ended& ended)
+      {
+        const StopOfReads stop([this] { return wanted_->abandoned(); });
+        const std::size_t bytes = readPages(pages);
+        std::for_each(pages.begin(), pages.end(), ended);
+        return bytes;
+      } }))
+  , pages_(std::move(first))
 {
+  firstRows_ = &pages_.firstRows();
+  whole_ = pages_.complete();
+  levels_ = pages_[0].rows.levels;
+  nodeCount_ = pages_.nodeCount();
+  if (!firstRows_->empty())
+  {
+    roots_.push_back(0);
+  }
+}
+
+ForeignTable::~ForeignTable() = default;
+
+Result<std::shared_ptr<ForeignTable>> ForeignTable::make(
+  const ForeignTreeContent& content, const glm::dvec3& margin)
+{
+  const std::string& path = content.source.path;
   const glm::dvec3 reach = glm::abs(content.low) + glm::dvec3(content.side);
   if (!(content.side > 0.0) || !(std::max({ reach.x, reach.y, reach.z }) <= farthestCoordinate))
   {
-    return bad(content, "the cube of its octree is none");
+    return makeError(Error::Kind::BadFormat, path + ": the cube of its octree is none");
   }
-  const Result<std::map<CellKey, Cell>> cells = cellsOf(content);
-  if (!cells)
+  const bool spaced = content.spacing > 0.0 && std::isfinite(content.spacing);
+  const double spacing = spaced ? content.spacing : content.side / usualTicks;
+  const ForeignCells cells{ content.low, content.side, spacing, margin, std::nullopt };
+  Result<ForeignPageRows> rows = ForeignPageRows();
+  if (!content.first.nodes.empty() || !content.first.pages.empty())
   {
-    return cells.error();
+    rows = ForeignPageRows::make(
+      content.first, {}, content.source.headerPointCount.value_or(0), cells, path);
   }
-  ForeignTable table;
-  if (cells->empty())
+  if (!rows)
   {
-    return table;
+    return rows.error();
   }
-  const double spacing = content.spacing > 0.0 && std::isfinite(content.spacing)
-    ? content.spacing
-    : content.side / usualTicks;
-  std::vector<CellKey> keys{ { 0, 0, 0, 0 } };
-  table.nodes.emplace_back();
-  for (std::size_t i = 0; i < keys.size(); ++i) // grows: breadth first
-  {
-    const auto [level, x, y, z] = keys[i];
-    const Cell& cell = cells->at(keys[i]);
-    Node node = table.nodes[i]; // its parent is set
-    node.level = static_cast<std::uint8_t>(level);
-    node.pointCount = cell.points;
-    node.pointsBelow = cell.points;
-    node.spacing = static_cast<float>(std::ldexp(spacing, -level));
-    const double size = std::ldexp(content.side, -level);
-    const glm::dvec3 low = content.low + size * glm::dvec3(double(x), double(y), double(z));
-    setBox(node, { low - margin, low + size + margin });
-    for (std::int64_t child = 0; child < 8; ++child)
-    {
-      const CellKey key{ level + 1, 2 * x + (child & 1), 2 * y + ((child >> 1) & 1),
-        2 * z + (child >> 2) };
-      if (cells->count(key) > 0)
-      {
-        node.firstChild = node.childCount == 0 ? NodeIndex(keys.size()) : node.firstChild;
-        ++node.childCount;
-        keys.push_back(key);
-        table.nodes.emplace_back();
-        table.nodes.back().parent = static_cast<NodeIndex>(i);
-      }
-    }
-    table.nodes[i] = node;
-    table.chunks.push_back(cell.chunk);
-    table.levels = std::max<std::uint32_t>(table.levels, std::uint32_t(level) + 1);
-  }
-  for (std::size_t i = table.nodes.size(); i-- > 1;)
-  {
-    table.nodes[table.nodes[i].parent].pointsBelow += table.nodes[i].pointsBelow;
-  }
-  return table;
+  return std::shared_ptr<ForeignTable>(new ForeignTable(content, cells, std::move(*rows)));
 }
 
 void ForeignTable::cutTo(const Bounds& box)
 {
-  for (Node& node : nodes)
+  cells_.cut = box;
+  for (ForeignRow& row : *firstRows_)
   {
-    Bounds cut{ glm::max(node.box().low, box.low), glm::min(node.box().high, box.high) };
-    if (!cut.empty())
+    cells_.cutRow(row.row);
+  }
+}
+
+/// Returns the bytes that the rows take, for want of those that were read.
+std::size_t ForeignTable::readPages(const std::vector<std::size_t>& pages) const
+{
+  using State = ForeignPages::State;
+  std::vector<std::size_t> unread;
+  std::vector<ForeignNode> places;
+  std::vector<std::uint64_t> claimed;
+  {
+    const std::shared_lock<std::shared_mutex> lock(mutex_);
+    for (const std::size_t page : pages)
     {
-      setBox(node, cut);
+      if (pages_[page].state == State::Unread)
+      {
+        unread.push_back(page);
+        places.push_back(pages_[page].at);
+        claimed.push_back(pages_[page].points);
+      }
     }
   }
+  std::vector<Result<ForeignPage>> read = reader_->readPages(places);
+  std::size_t rows = 0;
+  for (std::size_t i = 0; i < unread.size(); ++i)
+  {
+    Result<ForeignPageRows> made = read[i]
+      ? ForeignPageRows::make(*read[i], places[i], claimed[i], cells_, path_)
+      : Result<ForeignPageRows>(read[i].error());
+    const std::unique_lock<std::shared_mutex> lock(mutex_);
+    if (pages_[unread[i]].state != State::Unread)
+    {
+      continue; // another thread was faster
+    }
+    if (made)
+    {
+      rows += made->rows.size();
+      if (!pages_.take(unread[i], std::move(*made)))
+      {
+        wanted_->noteFault(unread[i],
+          makeError(Error::Kind::NoMemory,
+            path_ +
+              ": its octree has more nodes or points than can be numbered; build a store from it"));
+      }
+    }
+    else if (made.error().kind != Error::Kind::Cancelled)
+    {
+      pages_.lose(unread[i]);
+      wanted_->noteFault(unread[i], made.error());
+    }
+  }
+  return rows * sizeof(ForeignRow);
+}
+
+std::optional<Error> ForeignTable::fault() const
+{
+  if (std::optional<Error> first = wanted_->fault())
+  {
+    return first;
+  }
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  if (whole_ || !pages_.complete() || pages_.points() >= claimed_)
+  {
+    return std::nullopt;
+  }
+  return makeError(Error::Kind::Corrupt,
+    "'" + path_ + "': its octree lacks " + std::to_string(claimed_ - pages_.points()) + " of the " +
+      std::to_string(claimed_) +
+      " points; build a store from the file, which does not need its tree");
+}
+
+bool ForeignTable::isUnread(std::size_t page) const
+{
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  return pages_[page].state == ForeignPages::State::Unread;
+}
+
+Result<void> ForeignTable::readAll() const
+{
+  for (std::size_t first = 0;;)
+  {
+    std::vector<std::size_t> unread;
+    {
+      const std::shared_lock<std::shared_mutex> lock(mutex_);
+      for (; first < pages_.size() && unread.size() < pagesAtOnce; ++first)
+      {
+        if (pages_[first].state == ForeignPages::State::Unread)
+        {
+          unread.push_back(first);
+        }
+      }
+    }
+    if (unread.empty())
+    {
+      const std::optional<Error> none = fault();
+      return none ? Result<void>(*none) : Result<void>();
+    }
+    readPages(unread);
+    if (std::any_of(unread.begin(), unread.end(), [this](std::size_t p) { return isUnread(p); }))
+    {
+      return makeError(
+        Error::Kind::Cancelled, "reading the hierarchy of '" + path_ + "' was cancelled");
+    }
+  }
+}
+
+std::vector<NodeIndex> ForeignTable::nodes() const
+{
+  const std::shared_lock<std::shared_mutex> lock(mutex_);
+  return pages_.nodes();
+}
+
+std::optional<ForeignRow> ForeignTable::find(NodeIndex index) const
+{
+  if (const ForeignRow* first = firstRow(index))
+  {
+    return *first;
+  }
+  for (std::size_t page = ForeignPages::noPage;;)
+  {
+    {
+      const std::shared_lock<std::shared_mutex> lock(mutex_);
+      const ForeignPages::Spot spot = pages_.find(index);
+      if (spot.row != nullptr)
+      {
+        return *spot.row;
+      }
+      // The same again: its reading was stopped.
+      if (spot.page == page || spot.page == ForeignPages::noPage ||
+        pages_[spot.page].state == ForeignPages::State::Lost)
+      {
+        return std::nullopt;
+      }
+      page = spot.page;
+    }
+    readPages({ page });
+  }
+}
+
+std::pair<NodeIndex, NodeIndex> ForeignTable::nodesAround(std::uint64_t point) const
+{
+  for (std::size_t page = ForeignPages::noPage;;)
+  {
+    {
+      const std::shared_lock<std::shared_mutex> lock(mutex_);
+      const ForeignPages::Spot spot = pages_.findPoint(point);
+      if (spot.row != nullptr || spot.page == page || spot.page == ForeignPages::noPage ||
+        pages_[spot.page].state == ForeignPages::State::Lost)
+      {
+        return { spot.node, spot.node + 1 };
+      }
+      page = spot.page;
+    }
+    readPages({ page });
+  }
+}
+
+Node ForeignTable::node(NodeIndex index) const
+{
+  const std::optional<ForeignRow> found = find(index);
+  return found ? found->row : Node();
+}
+
+Node ForeignTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
+{
+  const Node found = node(row.firstChild + child);
+  return found.parent == parent ? found : Node();
+}
+
+RowState ForeignTable::peek(NodeIndex index, Node& row) const
+{
+  if (const ForeignRow* first = firstRow(index))
+  {
+    row = first->row;
+    return RowState::Here;
+  }
+  std::size_t page = ForeignPages::noPage;
+  {
+    const std::shared_lock<std::shared_mutex> lock(mutex_);
+    const ForeignPages::Spot spot = pages_.find(index);
+    if (spot.row != nullptr)
+    {
+      row = spot.row->row;
+      return RowState::Here;
+    }
+    page = spot.page;
+    if (page == ForeignPages::noPage || pages_[page].state == ForeignPages::State::Lost)
+    {
+      row = Node();
+      return RowState::Lost;
+    }
+  }
+  wanted_->want(page);
+  return RowState::Coming;
+}
+
+RowState ForeignTable::peekChild(
+  NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
+{
+  const RowState state = peek(row.firstChild + child, found);
+  if (state == RowState::Here && found.parent != parent)
+  {
+    found = Node();
+    return RowState::Lost;
+  }
+  return state;
 }
 
 } // namespace pointfront

@@ -1,15 +1,12 @@
 #include "pointfront/InPlace/ForeignTree.h"
 
-#include "pointfront/InPlace/ForeignTable.h"
-#include "pointfront/InPlace/SampleStream.h"
+#include "pointfront/InPlace/FairOrder.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Threads/ThreadCrew.h"
-#include "pointfront/Trees/PrefixOrder.h"
 
 #include <glm/common.hpp>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -24,70 +21,6 @@ namespace pointfront
 namespace
 {
 constexpr std::uint32_t mostLookedAt = 1000; ///< points of a node, when the tree is opened
-
-/// Ten bits of a number, two zeros between each and the next.
-std::uint64_t spread(std::uint64_t bits)
-{
-  bits = (bits | bits << 16) & 0x30000ffull;
-  bits = (bits | bits << 8) & 0x300f00full;
-  bits = (bits | bits << 4) & 0x30c30c3ull;
-  return (bits | bits << 2) & 0x9249249ull;
-}
-
-/// Numbers of the keys, by key, equal ones by number. Keys of 30 bits; three passes over the bits
-/// are faster than comparing (the first picture waits for this).
-std::vector<std::uint32_t> sortedByKey(const std::vector<std::uint32_t>& keys)
-{
-  constexpr unsigned digitBits = 10;
-  constexpr std::uint32_t mask = (1u << digitBits) - 1;
-  std::vector<std::uint32_t> order(keys.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::vector<std::uint32_t> next(keys.size());
-  for (unsigned shift = 0; shift < 3 * digitBits; shift += digitBits)
-  {
-    std::array<std::uint32_t, mask + 2> begin{}; // first of each digit in `next`
-    for (const std::uint32_t key : keys)
-    {
-      ++begin[(key >> shift & mask) + 1];
-    }
-    std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    for (const std::uint32_t number : order)
-    {
-      next[begin[keys[number] >> shift & mask]++] = number;
-    }
-    order.swap(next);
-  }
-  return order;
-}
-
-/// Places of the points in an order whose every prefix is a fair subset: batches along the Morton
-/// curve.
-std::vector<std::uint32_t> fairOrder(
-  const std::vector<GridPosition>& steps, const GridPosition& low, const GridPosition& high)
-{
-  constexpr unsigned bits = 10;
-  const GridPosition extent = high - low;
-  unsigned shift = 0;
-  while ((std::max({ extent.x, extent.y, extent.z }) >> shift) >= (1 << bits))
-  {
-    ++shift;
-  }
-  std::vector<std::uint32_t> along(steps.size()); // places on the curve
-  std::transform(steps.begin(), steps.end(), along.begin(),
-    [&](const GridPosition& step)
-    {
-      const GridPosition p = step - low;
-      return static_cast<std::uint32_t>(spread(std::uint64_t(p.x) >> shift) |
-        spread(std::uint64_t(p.y) >> shift) << 1 | spread(std::uint64_t(p.z) >> shift) << 2);
-    });
-  std::vector<RankedHash> ranked;
-  ranked.reserve(steps.size());
-  for (const std::uint32_t point : sortedByKey(along))
-  {
-    ranked.push_back({ point, static_cast<std::uint32_t>(SampleStream::mixed(point) >> 32) });
-  }
-  return prefixBatches(std::move(ranked));
-}
 
 std::vector<GridPosition> stepsOf(const PointBatch& batch, const QuantisationGrid& grid)
 {
@@ -138,46 +71,36 @@ Result<std::shared_ptr<const StoredCloud>> ForeignTree::make(ForeignTreeContent 
   // Who cut the tree compared positions before or after they were rounded to the grid.
   const glm::dvec3 margin =
     grid.scale + (glm::abs(content.low) + glm::dvec3(std::abs(content.side))) * 0x1p-48;
-  Result<ForeignTable> table = ForeignTable::make(content, margin);
+  Result<std::shared_ptr<ForeignTable>> table = ForeignTable::make(content, margin);
   if (!table)
   {
     return table.error();
   }
   std::shared_ptr<ForeignTree> tree(new ForeignTree);
   tree->reader_ = content.reader;
+  tree->table_ = std::move(*table);
+  tree->hierarchy_ = tree->table_;
   tree->describe(content);
-  tree->description_.levels = table->levels;
-  tree->chunks_ = table->chunks;
-  const auto setTable = [&tree](std::vector<Node> nodes)
-  {
-    tree->description_.layers = { { 0, "all", nodes.empty() ? 0 : nodes.front().pointsBelow,
-      static_cast<std::uint32_t>(nodes.size()) } };
-    tree->description_.pointCount = tree->description_.layers.front().pointCount;
-    std::vector<NodeIndex> roots;
-    if (!nodes.empty())
-    {
-      roots.push_back(0);
-    }
-    tree->hierarchy_ =
-      std::make_shared<HierarchyTable>(std::move(nodes), std::move(roots), Refinement::Add);
-  };
-  setTable(table->nodes);
   if (Result<void> looked = tree->lookAtFirstPoints(); !looked)
   {
     return looked.error();
   }
-  const Bounds& declared = content.source.declaredBounds;
-  if (!declared.empty() && encloses(grown(declared, margin), tree->description_.bounds))
-  {
-    table->cutTo(grown(declared, margin));
-    tree->description_.bounds = declared;
-    setTable(std::move(table->nodes));
-  }
-  else if (!table->nodes.empty())
-  {
-    tree->description_.bounds = table->nodes.front().box();
-  }
+  tree->cutBoxes(content.source.declaredBounds, margin);
   return std::shared_ptr<const StoredCloud>(std::move(tree));
+}
+
+/// Down to the box that the file declares, if the points that were looked at keep to it.
+void ForeignTree::cutBoxes(const Bounds& declared, const glm::dvec3& margin)
+{
+  if (!declared.empty() && encloses(grown(declared, margin), description_.bounds))
+  {
+    table_->cutTo(grown(declared, margin));
+    description_.bounds = declared;
+  }
+  else if (!table_->firstRows().empty())
+  {
+    description_.bounds = table_->firstRows().front().row.box();
+  }
 }
 
 void ForeignTree::describe(const ForeignTreeContent& content)
@@ -194,6 +117,14 @@ void ForeignTree::describe(const ForeignTreeContent& content)
   description_.generator = source.format;
   description_.warnings = source.warnings;
   description_.wholeCount = source.headerPointCount.value_or(0);
+  description_.levels = table_->levels();
+  const std::vector<ForeignRow>& rows = table_->firstRows();
+  const std::uint64_t points = !table_->whole() ? description_.wholeCount
+    : rows.empty()                              ? 0
+                                                : rows.front().row.pointsBelow;
+  const auto nodes = static_cast<std::uint32_t>(table_->whole() ? rows.size() : 0);
+  description_.layers = { { 0, "all", points, nodes } };
+  description_.pointCount = points;
   for (const Attribute& attribute : source.schema)
   {
     description_.ranges.push_back(emptyRange(attribute));
@@ -206,34 +137,32 @@ Result<void> ForeignTree::lookAtFirstPoints()
   description_.rangesAreSampled = true;
   ColumnSelection all(description_.schema.size());
   std::iota(all.begin(), all.end(), 0u);
-  const Hierarchy& table = *hierarchy_;
+  const std::vector<ForeignRow>& rows = table_->firstRows();
   std::vector<NodeIndex> looked;
   constexpr std::size_t most = 8;
-  std::vector<std::uint64_t> chunks;
-  for (NodeIndex i = 0; i < table.nodeCount() && looked.size() < most; ++i)
+  std::vector<ForeignNode> nodes;
+  for (NodeIndex i = 0; i < rows.size() && looked.size() < most; ++i)
   {
-    const Node row = table.node(i);
-    if (!looked.empty() && row.level > table.node(looked.front()).level)
+    if (!looked.empty() && rows[i].row.level > nodes.front().level)
     {
       break;
     }
-    if (row.pointCount > 0)
+    if (rows[i].row.pointCount > 0)
     {
       looked.push_back(i);
-      chunks.push_back(chunks_[i]);
+      nodes.push_back(rows[i].cell);
     }
   }
   const ReadStop never{ false };
-  std::vector<Result<RawBytes>> bytes = reader_->fetchAll(chunks, never);
+  std::vector<Result<RawBytes>> bytes = reader_->fetchAll(nodes, never);
   for (std::size_t n = 0; n < looked.size(); ++n)
   {
     if (!bytes[n])
     {
       return bytes[n].error();
     }
-    const std::uint32_t points = table.node(looked[n]).pointCount;
     PointBatch batch;
-    const ForeignNodes::Part part{ chunks[n], points, std::min(mostLookedAt, points), all };
+    const ForeignNodes::Part part{ nodes[n], std::min(mostLookedAt, nodes[n].points), all };
     if (Result<void> decoded = reader_->decode(part, *bytes[n], batch); !decoded)
     {
       return decoded;
@@ -263,6 +192,13 @@ Error ForeignTree::damaged(NodeIndex node, const std::string& what) const
       "; build a store from the file, which does not need its tree");
 }
 
+/// The error of a node whose page is lost, or of a number that no node has.
+Error ForeignTree::lost(NodeIndex node) const
+{
+  const std::optional<Error> fault = table_->fault();
+  return fault ? *fault : damaged(node, "is not known");
+}
+
 std::size_t ForeignTree::decodedBytes(
   NodeIndex, std::uint32_t points, const ColumnSelection& columns) const
 {
@@ -271,19 +207,8 @@ std::size_t ForeignTree::decodedBytes(
 
 std::size_t ForeignTree::storedBytes(NodeIndex node, const ColumnSelection&) const
 {
-  return hierarchy_->node(node).pointCount > 0 ? reader_->storedBytes(chunks_[node]) : 0;
-}
-
-std::vector<Result<RawBytes>> ForeignNodes::fetchAll(
-  const std::vector<std::uint64_t>& chunks, const ReadStop& stop) const
-{
-  std::vector<Result<RawBytes>> fetched;
-  for (const std::uint64_t chunk : chunks)
-  {
-    fetched.push_back(
-      stop ? makeError(Error::Kind::Cancelled, "nobody wants this node now") : fetch(chunk));
-  }
-  return fetched;
+  const std::optional<ForeignRow> found = table_->find(node);
+  return found && found->cell.points > 0 ? reader_->storedBytes(found->cell) : 0;
 }
 
 Result<FetchedNode> ForeignTree::fetch(NodeIndex node, const ColumnSelection& columns) const
@@ -296,12 +221,18 @@ std::vector<Result<FetchedNode>> ForeignTree::fetchAll(
   const std::vector<WantedNode>& wanted, const ReadStop& stop) const
 {
   std::vector<Result<FetchedNode>> results;
-  std::vector<std::uint64_t> chunks;
-  std::vector<std::size_t> places; ///< in `wanted`, of the chunks
+  std::vector<ForeignNode> nodes;
+  std::vector<std::size_t> places; ///< in `wanted`, of the nodes
   for (const auto& [node, columns] : wanted)
   {
     assert(node < hierarchy_->nodeCount());
-    FetchedNode fetched{ node, columns, {}, 0, hierarchy_->node(node) };
+    const std::optional<ForeignRow> found = table_->find(node);
+    if (!found)
+    {
+      results.emplace_back(lost(node));
+      continue;
+    }
+    FetchedNode fetched{ node, columns, {}, 0, found->row };
     if (node == first_ && firstBytes_.size > 0)
     {
       fetched.runs.emplace_back(firstBytes_.size);
@@ -309,12 +240,12 @@ std::vector<Result<FetchedNode>> ForeignTree::fetchAll(
     }
     else if (fetched.row.pointCount > 0)
     {
-      chunks.push_back(chunks_[node]);
+      nodes.push_back(found->cell);
       places.push_back(results.size());
     }
     results.push_back(std::move(fetched));
   }
-  std::vector<Result<RawBytes>> bytes = reader_->fetchAll(chunks, stop);
+  std::vector<Result<RawBytes>> bytes = reader_->fetchAll(nodes, stop);
   for (std::size_t i = 0; i < places.size(); ++i)
   {
     Result<FetchedNode>& result = results[places[i]];
@@ -357,9 +288,14 @@ Result<NodeColumns> ForeignTree::decodeNow(const FetchedNode& fetched) const
   {
     return result;
   }
+  const std::optional<ForeignRow> found = table_->find(fetched.node); // its page is here
+  if (!found)
+  {
+    return lost(fetched.node);
+  }
   PointBatch batch;
-  if (Result<void> done = reader_->decode(
-        { chunks_[fetched.node], points, points, fetched.columns }, fetched.runs[0], batch);
+  if (Result<void> done =
+        reader_->decode({ found->cell, points, fetched.columns }, fetched.runs[0], batch);
       !done)
   {
     return done.error();
@@ -405,29 +341,38 @@ Result<NodeColumns> ForeignTree::decodeNow(const FetchedNode& fetched) const
 
 Result<VerifyReport> ForeignTree::verify(const ProgressFunction& progress) const
 {
-  const NodeIndex nodes = hierarchy_->nodeCount();
   const auto begin = std::chrono::steady_clock::now();
   VerifyReport report;
-  constexpr NodeIndex atOnce = 64;
-  for (NodeIndex first = 0; first < nodes && report.ok; first += atOnce)
+  if (const Result<void> read = table_->readAll(); !read)
   {
-    const NodeIndex count = std::min(atOnce, nodes - first);
+    if (read.error().kind == Error::Kind::Cancelled)
+    {
+      return read.error();
+    }
+    report.ok = false;
+    report.firstError = read.error().what;
+  }
+  const std::vector<NodeIndex> nodes = table_->nodes();
+  constexpr std::size_t atOnce = 64;
+  for (std::size_t first = 0; first < nodes.size() && report.ok; first += atOnce)
+  {
+    const std::size_t count = std::min(atOnce, nodes.size() - first);
     std::vector<std::string> faults(count);
     ThreadCrew::ofProcess().run(count,
       [&](std::size_t i, unsigned)
       {
-        const Result<NodeColumns> node = read(first + static_cast<NodeIndex>(i), {});
+        const Result<NodeColumns> node = read(nodes[first + i], {});
         faults[i] = node ? "" : node.error().what;
       });
-    for (NodeIndex i = 0; i < count && report.ok; ++i)
+    for (std::size_t i = 0; i < count && report.ok; ++i)
     {
       report.ok = faults[i].empty();
       report.firstError = faults[i];
       report.nodesChecked += report.ok ? 1 : 0;
-      report.pointsChecked += report.ok ? hierarchy_->node(first + i).pointCount : 0;
+      report.pointsChecked += report.ok ? hierarchy_->node(nodes[first + i]).pointCount : 0;
     }
-    Progress state{ "verifying", first + count, nodes, 1.0, 0.0 };
-    state.fraction = static_cast<double>(first + count) / nodes;
+    Progress state{ "verifying", first + count, nodes.size(), 1.0, 0.0 };
+    state.fraction = static_cast<double>(first + count) / static_cast<double>(nodes.size());
     state.secondsElapsed =
       std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
     if (progress && !progress(state))

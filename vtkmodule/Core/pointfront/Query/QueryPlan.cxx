@@ -1,10 +1,12 @@
 #include "pointfront/Query/QueryPlan.h"
 
+#include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Query/ChosenColumns.h"
 #include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterPruning.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <iterator>
 #include <memory>
@@ -133,6 +135,56 @@ Overlap QueryPlan::overlap(const Bounds& box) const
   return least;
 }
 
+namespace
+{
+/// Nodes whose children's rows are asked for together. Where rows are read as they are looked into,
+/// those that are not here then come beside each other.
+constexpr std::size_t nodesAtOnce = 64;
+
+struct OpenNode
+{
+  NodeIndex index = noNode;
+  Node row;
+};
+
+/// Waits until the row of each child was here, or is lost, if the table reads rows on demand.
+void awaitChildren(const Hierarchy& hierarchy, const std::vector<OpenNode>& nodes)
+{
+  if (hierarchy.missingRows() == nullptr)
+  {
+    return;
+  }
+  std::vector<std::pair<const OpenNode*, std::uint8_t>> coming;
+  for (const OpenNode& node : nodes)
+  {
+    for (std::uint8_t c = 0; c < node.row.childCount; ++c)
+    {
+      coming.emplace_back(&node, c);
+    }
+  }
+  for (;;)
+  {
+    const std::uint64_t seen = hierarchy.arrivals();
+    // A small cache may have dropped others meanwhile: each is waited for once.
+    coming.erase(std::remove_if(coming.begin(), coming.end(),
+                   [&](const auto& one)
+                   {
+                     const auto& [parent, c] = one;
+                     Node child;
+                     return hierarchy.peekChild(parent->index, parent->row, c, child) !=
+                       RowState::Coming;
+                   }),
+      coming.end());
+    if (coming.empty() || StopOfReads::asked())
+    {
+      return;
+    }
+    hierarchy.waitForArrival(
+      seen, std::chrono::steady_clock::now() + std::chrono::milliseconds(100));
+  }
+}
+} // namespace
+
 /// Those at most one level finer than the wanted spacing; with mean representatives only the last
 /// ones of each branch.
 Result<void> QueryPlan::chooseNodes(
@@ -140,8 +192,19 @@ Result<void> QueryPlan::chooseNodes(
 {
   using Verdict = NodePruning::Verdict;
   std::vector<NodeIndex> open(hierarchy.roots());
-  while (!open.empty())
+  std::vector<OpenNode> refined;
+  while (!open.empty() || !refined.empty())
   {
+    if (open.empty() || refined.size() == nodesAtOnce)
+    {
+      awaitChildren(hierarchy, refined);
+      for (const OpenNode& node : refined)
+      {
+        hierarchy.appendChildren(node.index, node.row, open);
+      }
+      refined.clear();
+      continue;
+    }
     const NodeIndex index = open.back();
     open.pop_back();
     const Node node = hierarchy.node(index);
@@ -159,7 +222,7 @@ Result<void> QueryPlan::chooseNodes(
     }
     if (finer)
     {
-      hierarchy.appendChildren(index, node, open);
+      refined.push_back({ index, node });
     }
   }
   std::sort(nodes_.begin(), nodes_.end(),
@@ -167,6 +230,10 @@ Result<void> QueryPlan::chooseNodes(
   if (std::optional<Error> damage = hierarchy.fault())
   {
     return *damage;
+  }
+  if (StopOfReads::asked()) // rows that were not read would be nodes that are left out
+  {
+    return makeError(Error::Kind::Cancelled, "nobody wants these points any more");
   }
   return {};
 }

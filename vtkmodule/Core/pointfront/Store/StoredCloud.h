@@ -73,6 +73,12 @@ struct StoreDescription
   {
     return std::find(computed.begin(), computed.end(), column) != computed.end();
   }
+  /// False where nodes are counted when they are looked into: a layer has points and no nodes.
+  bool knowsNodes() const
+  {
+    return std::none_of(layers.begin(), layers.end(),
+      [](const Layer& layer) { return layer.pointCount > 0 && layer.nodeCount == 0; });
+  }
   std::uint64_t missingPoints() const
   {
     return wholeCount > pointCount ? wholeCount - pointCount : 0;
@@ -122,6 +128,13 @@ public:
   virtual std::string name() const = 0; ///< "store", "index of a LAS file"
   virtual bool accepts(const std::string& path) const = 0; ///< by content, cheap, silent
   virtual Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const = 0;
+  /// The same, for who makes it a part of a larger cloud: the number of its nodes is known, and
+  /// numbers of nodes and points have no gaps. A table that open() reads as it is looked into is
+  /// read whole.
+  virtual Result<std::shared_ptr<const StoredCloud>> openWhole(const std::string& path) const
+  {
+    return open(path);
+  }
 };
 
 } // namespace pointfront

@@ -101,7 +101,8 @@ Result<std::unique_ptr<const CollectionTiles::Tile>> CollectionTiles::openNow(
   const std::string before = path_ + ": its tile '" + publicForm(address) + "'";
   const std::string advice = "; put the file that it was made of back, or take the new one in: "
                              "pointfront collection replace";
-  Result<std::shared_ptr<const StoredCloud>> cloud = StoredCloudFormats::ofProcess().open(address);
+  Result<std::shared_ptr<const StoredCloud>> cloud =
+    StoredCloudFormats::ofProcess().openWhole(address);
   const Result<TileIdentity> is = TileIdentity::of(cloud ? (*cloud)->files().front() : address);
   if (is && !(*is == record_->tiles[tile].is.identity))
   {

@@ -7,188 +7,48 @@
 #include <algorithm>
 #include <atomic>
 #include <cassert>
-#include <condition_variable>
-#include <map>
-#include <mutex>
 #include <utility>
 
 namespace pointfront
 {
 
-/// Tiles that somebody looked into: to be opened, or to read more of their own tables.
-class ListedTable::Wanted final : public MissingRows
+namespace
 {
-public:
-  explicit Wanted(const ListedTable& table)
-    : table_(table)
-    , lost_(table.tiles_->size(), false)
-  {
-  }
-
-  void want(std::size_t tile);
-  void noteFault(std::size_t tile, const Error& error);
-  bool waiting() const override { return any_; }
-  std::size_t readNext() override;
-  void attach(const void* reader, std::function<void()> tell) override;
-  void detach(const void* reader) override;
-  bool wait(std::uint64_t seen, std::chrono::steady_clock::time_point end);
-
-  std::atomic<std::uint64_t> arrivals{ 0 };
-  std::mutex faultMutex; ///< guards what follows
-  std::optional<Error> firstFault;
-  std::vector<Error> newFaults;
-
-private:
-  /// Tiles that wait at most. Who looks into others looks again when these are here, and may have
-  /// gone elsewhere meanwhile.
-  static constexpr std::size_t most = 64;
-
-  std::size_t read(std::size_t tile);
-
-  const ListedTable& table_;
-  std::vector<bool> lost_; ///< whose fault was noted
-  std::mutex mutex_; ///< guards what follows
-  std::condition_variable changed_;
-  std::vector<std::size_t> wanted_; ///< the oldest first
-  std::vector<std::size_t> beingRead_;
-  std::map<const void*, std::function<void()>> readers_;
-  std::atomic<bool> any_{ false }; ///< !wanted_.empty(); written under the lock
-  std::atomic<bool> left_{ false }; ///< the last reader has gone
-};
-
-void ListedTable::Wanted::want(std::size_t tile)
-{
-  const auto among = [tile](const std::vector<std::size_t>& tiles)
-  { return std::find(tiles.begin(), tiles.end(), tile) != tiles.end(); };
-  const std::lock_guard<std::mutex> lock(mutex_);
-  if (wanted_.size() == most || among(wanted_) || among(beingRead_))
-  {
-    return;
-  }
-  wanted_.push_back(tile);
-  if (!any_.exchange(true))
-  {
-    for (const auto& [reader, tell] : readers_)
-    {
-      tell();
-    }
-  }
-}
-
-void ListedTable::Wanted::noteFault(std::size_t tile, const Error& error)
-{
-  const std::lock_guard<std::mutex> lock(faultMutex);
-  if (!lost_[tile])
-  {
-    lost_[tile] = true;
-    firstFault = firstFault ? firstFault : error;
-    newFaults.push_back(error);
-  }
-}
+constexpr std::size_t bytesOfAnOpening = 4096;
 
 /// Opens a tile, or reads rows of one that is open.
-std::size_t ListedTable::Wanted::read(std::size_t tile)
+std::size_t readTile(const ListedTable& table, const ListedTiles& tiles, std::size_t tile)
 {
-  constexpr std::size_t ofAnOpening = 4096;
-  if (const ListedTiles::Tile* open = table_.tiles_->opened(tile))
+  if (const ListedTiles::Tile* open = tiles.opened(tile))
   {
     MissingRows* const rows = open->cloud->hierarchy()->missingRows();
     return rows != nullptr ? rows->readNext() : 0;
   }
-  return table_.openTile(tile) ? ofAnOpening : 0;
+  return table.openTile(tile) ? bytesOfAnOpening : 0;
 }
-
-std::size_t ListedTable::Wanted::readNext()
-{
-  std::vector<std::size_t> tiles;
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    if (wanted_.empty())
-    {
-      return 0;
-    }
-    const bool far = isAddress(table_.tiles_->listed(wanted_.front()).address);
-    const std::size_t count =
-      std::min(wanted_.size(), far ? ListedTiles::openingsAtOnce : std::size_t(1));
-    const auto end = wanted_.begin() + static_cast<std::ptrdiff_t>(count);
-    tiles.assign(wanted_.begin(), end);
-    beingRead_.insert(beingRead_.end(), tiles.begin(), tiles.end());
-    wanted_.erase(wanted_.begin(), end);
-    any_ = !wanted_.empty();
-  }
-  const auto ended = [this](std::size_t tile)
-  {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    const auto place = std::find(beingRead_.begin(), beingRead_.end(), tile);
-    if (place != beingRead_.end())
-    {
-      beingRead_.erase(place);
-    }
-    ++arrivals;
-    changed_.notify_all();
-  };
-  std::atomic<std::size_t> bytes{ 1 }; // a row has come or is lost, in any case
-  try
-  {
-    runWaiting(tiles.size(), tiles.size(),
-      [&](std::size_t i)
-      {
-        const StopOfReads stop([this] { return left_.load(); });
-        bytes += read(tiles[i]);
-        ended(tiles[i]);
-      });
-  }
-  catch (...)
-  {
-    std::for_each(tiles.begin(), tiles.end(), ended); // they can be asked for again
-    throw;
-  }
-  return bytes;
-}
-
-void ListedTable::Wanted::attach(const void* reader, std::function<void()> tell)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  readers_[reader] = std::move(tell);
-  left_ = false;
-}
-
-void ListedTable::Wanted::detach(const void* reader)
-{
-  const std::lock_guard<std::mutex> lock(mutex_);
-  readers_.erase(reader);
-  left_ = readers_.empty();
-  changed_.notify_all();
-}
-
-bool ListedTable::Wanted::wait(std::uint64_t seen, std::chrono::steady_clock::time_point end)
-{
-  std::unique_lock<std::mutex> lock(mutex_);
-  while (arrivals == seen && !(wanted_.empty() && beingRead_.empty()))
-  {
-    if (std::chrono::steady_clock::now() >= end)
-    {
-      return true;
-    }
-    if (readers_.empty() && !wanted_.empty())
-    {
-      left_ = false;
-      lock.unlock();
-      readNext();
-      lock.lock();
-    }
-    else
-    {
-      changed_.wait_until(lock, end);
-    }
-  }
-  return arrivals != seen;
-}
+} // namespace
 
 ListedTable::ListedTable(std::shared_ptr<const ListedTiles> tiles)
   : tiles_(std::move(tiles))
-  , wanted_(std::make_unique<Wanted>(*this))
+  , wanted_(std::make_unique<WantedParts>(WantedParts::Reading{ [this](std::size_t tile)
+      { return isAddress(tiles_->listed(tile).address) ? ListedTiles::openingsAtOnce : 1; },
+      [this](const std::vector<std::size_t>& wanted, const WantedParts::Ended& ended)
+      { return readTiles(wanted, ended); } }))
 {
+}
+
+std::size_t ListedTable::readTiles(
+  const std::vector<std::size_t>& tiles, const WantedParts::Ended& ended) const
+{
+  std::atomic<std::size_t> bytes{ 0 };
+  runWaiting(tiles.size(), tiles.size(),
+    [&](std::size_t i)
+    {
+      const StopOfReads stop([this] { return wanted_->abandoned(); });
+      bytes += readTile(*this, *tiles_, tiles[i]);
+      ended(tiles[i]);
+    });
+  return bytes;
 }
 
 ListedTable::~ListedTable() = default;
@@ -391,7 +251,7 @@ MissingRows* ListedTable::missingRows() const
 
 std::uint64_t ListedTable::arrivals() const
 {
-  return wanted_->arrivals;
+  return wanted_->arrivals();
 }
 
 bool ListedTable::waitForArrival(
@@ -402,12 +262,9 @@ bool ListedTable::waitForArrival(
 
 std::optional<Error> ListedTable::fault() const
 {
+  if (std::optional<Error> first = wanted_->fault())
   {
-    const std::lock_guard<std::mutex> lock(wanted_->faultMutex);
-    if (wanted_->firstFault)
-    {
-      return wanted_->firstFault;
-    }
+    return first;
   }
   for (std::size_t t = 0; t < tiles_->size(); ++t)
   {
@@ -423,11 +280,7 @@ std::optional<Error> ListedTable::fault() const
 
 std::vector<Error> ListedTable::takeFaults() const
 {
-  std::vector<Error> all;
-  {
-    const std::lock_guard<std::mutex> lock(wanted_->faultMutex);
-    all = std::exchange(wanted_->newFaults, {});
-  }
+  std::vector<Error> all = wanted_->takeFaults();
   for (std::size_t t = 0; t < tiles_->size(); ++t)
   {
     if (const ListedTiles::Tile* const open = tiles_->opened(t))

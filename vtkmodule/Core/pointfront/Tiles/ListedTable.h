@@ -2,6 +2,7 @@
 
 #include "pointfront/Store/Hierarchy.h"
 #include "pointfront/Tiles/ListedTiles.h"
+#include "pointfront/Tiles/WantedParts.h"
 
 #include <memory>
 #include <utility>
@@ -54,8 +55,9 @@ public:
   std::vector<Error> takeFaults() const override;
 
 private:
-  class Wanted;
   explicit ListedTable(std::shared_ptr<const ListedTiles> tiles);
+  std::size_t readTiles(
+    const std::vector<std::size_t>& tiles, const WantedParts::Ended& ended) const;
   Node boxOf(std::size_t tile) const;
   /// Number of a tile's own node in this table.
   NodeIndex indexOf(std::size_t tile, NodeIndex own) const
@@ -70,7 +72,7 @@ private:
   std::vector<NodeIndex> firstNodes_; ///< by tile; the last entry is behind all
   std::vector<std::uint64_t> firstPoints_; ///< by tile; the last entry is behind all
   std::vector<NodeIndex> roots_;
-  std::unique_ptr<Wanted> wanted_;
+  std::unique_ptr<WantedParts> wanted_; ///< tiles: to be opened, or to read more of their tables
 };
 
 } // namespace pointfront

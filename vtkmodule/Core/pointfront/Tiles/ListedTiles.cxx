@@ -331,7 +331,7 @@ Result<std::shared_ptr<const StoredCloud>> ListedTiles::openCloud(std::size_t ti
     }
     held = std::move(*source);
   }
-  return StoredCloudFormats::ofProcess().open(address);
+  return StoredCloudFormats::ofProcess().openWhole(address);
 }
 
 Error ListedTiles::unlike(std::size_t tile, const std::string& what) const

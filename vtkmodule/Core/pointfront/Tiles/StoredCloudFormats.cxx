@@ -83,6 +83,18 @@ Result<std::shared_ptr<const ByteSource>> StoredCloudFormats::openFar(const std:
 
 Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::string& path) const
 {
+  return openBy(&StoredCloudFormat::open, path);
+}
+
+Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openWhole(
+  const std::string& path) const
+{
+  return openBy(&StoredCloudFormat::openWhole, path);
+}
+
+Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
+  Open way, const std::string& path) const
+{
   std::shared_ptr<const ByteSource> held; // a source that is open is the same for all
   if (isAddress(path))
   {
@@ -109,7 +121,7 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::s
         "'pointfront build' makes a store");
   }
   Result<std::shared_ptr<const StoredCloud>> cloud =
-    format ? format->open(path) : StoreFile().open(path);
+    format ? (*format.*way)(path) : StoreFile().open(path);
   if (!cloud && held && !held->isStillNamed())
   {
     // Whatever was made of a part that could not be read: this is why.

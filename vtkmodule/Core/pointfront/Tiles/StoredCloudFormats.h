@@ -34,12 +34,17 @@ public:
   /// Opens with the kind that accepts the file's content. If none does, our store's reader says
   /// why it is not a store. What lies behind an address is opened once for all who look at it.
   Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const;
+  /// The same, as a part of a larger cloud (StoredCloudFormat::openWhole).
+  Result<std::shared_ptr<const StoredCloud>> openWhole(const std::string& path) const;
 
   /// Opens what an address names, with the first bytes that most kinds need: as long as somebody
   /// holds it, accepts() and open() ask for none of them again.
   static Result<std::shared_ptr<const ByteSource>> openFar(const std::string& address);
 
 private:
+  using Open = Result<std::shared_ptr<const StoredCloud>> (StoredCloudFormat::*)(
+    const std::string&) const;
+  Result<std::shared_ptr<const StoredCloud>> openBy(Open way, const std::string& path) const;
   std::shared_ptr<const StoredCloudFormat> formatOf(const std::string& path) const;
 
   mutable std::shared_mutex mutex_;

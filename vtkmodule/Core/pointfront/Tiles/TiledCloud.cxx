@@ -33,7 +33,7 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   const auto open = [&](std::size_t i)
   {
     const StopOfReads stop(stopped);
-    opened[i] = StoredCloudFormats::ofProcess().open(files[i]);
+    opened[i] = StoredCloudFormats::ofProcess().openWhole(files[i]);
   };
   if (std::any_of(files.begin(), files.end(), [](const auto& file) { return isAddress(file); }))
   {

@@ -3,8 +3,10 @@
 import json
 import pathlib
 import re
+import shutil
 import struct
 import subprocess
+import unittest
 
 from tool import DATA, TOOL
 
@@ -58,11 +60,19 @@ def write_tiff(path, bands, corner, pixel, edge):
                      struct.pack("<H", len(tags)) + entries + bytes(4) + values)
 
 
+CITY_POINTS = 300000
+
+
 class Workplace:
-    """A folder with what the documentation's commands read."""
+    """A folder with what the documentation's commands read. All but the first are copies."""
+
+    first = None
 
     def __init__(self, folder):
         self.folder = folder
+        if Workplace.first:
+            shutil.copytree(Workplace.first, folder, symlinks=True, dirs_exist_ok=True)
+            return
         for name in ("survey", "incoming", "tiles", "ortho"):
             (folder / name).mkdir()
         self._make_survey()
@@ -78,6 +88,10 @@ class Workplace:
         for name, more in (("drawn", ("--error", 4)), ("reference", ()),
                            ("silhouette", ("--style", "white.json", "--background", "0,0,0"))):
             self.tool("render", "city.pfront", "-o", f"{name}.png", "--size", "160x120", *more)
+        Workplace.first = folder.with_name("workplace")
+        shutil.rmtree(Workplace.first, ignore_errors=True)
+        shutil.copytree(folder, Workplace.first, symlinks=True)
+        unittest.addModuleCleanup(shutil.rmtree, Workplace.first)
 
     def tool(self, *arguments):
         done = subprocess.run([TOOL, *map(str, arguments)], cwd=self.folder, capture_output=True,
@@ -97,7 +111,7 @@ class Workplace:
 
     def _make_city(self):
         """A made-up survey in ZONE, whole and in parts."""
-        self.tool("generate", "--points", 300000, "-o", "made.las")
+        self.tool("generate", "--points", CITY_POINTS, "-o", "made.las")
         self.tool("build", "made.las", "-o", "city.pfront", "--assume-crs", ZONE)
         for name in ("city.laz", "a.laz", "a_utm.laz", "b.ply", "new.laz"):
             self.tool("export", "city.pfront", "-o", name)

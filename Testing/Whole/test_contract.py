@@ -5,7 +5,7 @@ import signal
 import subprocess
 import unittest
 
-from tool import DATA, TOOL, ToolTest, pointfront
+from tool import DATA, SLOWNESS, TOOL, ToolTest, pointfront
 
 SMALL = DATA / "las/version_x_format/las1.2_pf3_10pts.las"
 LARGE = DATA / "large/autzen_10653336_rgb_intensity.laz"
@@ -360,7 +360,7 @@ class Interruption(ToolTest):
             stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         self.assertTrue(process.stderr.readline(), "no progress before the end")
         process.send_signal(number)
-        _, err = process.communicate(timeout=60)
+        _, err = process.communicate(timeout=600 * SLOWNESS)
         self.assertEqual(process.returncode, 130, err)
 
     def test_build_leaves_nothing(self):

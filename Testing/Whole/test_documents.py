@@ -106,7 +106,7 @@ class Styles(ToolTest):
 
     def test_gallery(self):
         page = USER / "gallery.md"
-        self.succeed("generate", "--points", 300000, "--seed", 3, "-o", self.folder / "town.las")
+        self.succeed("generate", "--points", 100000, "--seed", 3, "-o", self.folder / "town.las")
         self.succeed("build", self.folder / "town.las", "-o", self.folder / "town.pfront",
                      "--layers", "class", "--normals", "pca", "--local-height",
                      "--height-above-ground")

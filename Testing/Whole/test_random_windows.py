@@ -35,7 +35,7 @@ NEAREST = 0.3  # metres: VTK's nearest plane cuts off what the tool draws just b
 # Metres: a splat that near, below or beside the eye, reaches into the view; that plane may cut it
 # off, too.
 BESIDE_EYE = 1.5
-LIMIT = 60  # seconds until a view must have settled
+LIMIT = 600  # seconds until a view must have settled
 
 
 def same_camera(camera, way):

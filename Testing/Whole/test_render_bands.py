@@ -76,7 +76,7 @@ class Bands(SceneTest):
             self.assertIsNone(process.poll())
             time.sleep(0.01)
         process.send_signal(signal.SIGINT)
-        _, err = process.communicate(timeout=120)
+        _, err = process.communicate(timeout=600 * SLOWNESS)
         self.assertEqual(process.returncode, 130, err)
         self.assertEqual(self.entries(), ["cloud.pfront"])
 

@@ -40,7 +40,7 @@ class Outcome:
         return f"status {self.status}\nstdout: {self.out}\nstderr: {self.err}"
 
 
-def run(program, *arguments, environment=None, limit=240):
+def run(program, *arguments, environment=None, limit=800):
     begin = time.monotonic()
     finished = subprocess.run(
         [str(program), *map(str, arguments)],

@@ -16,7 +16,7 @@ import pointfront
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 CLOUD = ROOT / "Testing/Data/autzen_stadium.laz"
-LIMIT_SECONDS = 60.0
+LIMIT_SECONDS = 300.0  # ends a test that hangs
 
 
 def colourful_las(path, colours):

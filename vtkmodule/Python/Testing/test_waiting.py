@@ -17,7 +17,7 @@ import pointfront
 
 DATA = pathlib.Path(os.environ["POINTFRONT_SHARED_DATA"])
 LARGE = DATA / "large/autzen_10653336_rgb_intensity.laz"  # seconds of work
-LIMIT_SECONDS = 60.0
+LIMIT_SECONDS = 300.0  # ends a test that hangs
 
 
 class VirtualDisplay:

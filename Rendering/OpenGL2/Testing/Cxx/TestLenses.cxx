@@ -15,6 +15,7 @@
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <utility>
@@ -249,6 +250,31 @@ TEST(Lenses, MovingOneUploadsNothing)
   EXPECT_EQ(picture.at(60, 100), green);
   EXPECT_EQ(picture.at(140, 100), red);
   EXPECT_EQ(mapper->GetUploadedBytes(), uploaded);
+}
+
+/// Its outside goes on; its inside is another picture.
+TEST(Lenses, MovingOneDrawsItsInsideAlone)
+{
+  Meadow scene(meadowStore("moved", 480));
+  const int lens = scene.style->AddCircleLens(60.0, 100.0, 30.0);
+  scene.style->SetLensStyle(lens, R"({"visible": false})", 5);
+  scene.mapper->SetBackendToOpenGL();
+  scene.window->Start(); // there is a context before the first frame
+  const int all = primitivesOf(scene);
+  EXPECT_LT(primitivesOf(scene), 20) << "nothing moved";
+  int most = 0;
+  for (int move = 1; move <= 40; ++move)
+  {
+    scene.style->SetLensCenter(lens, 60.0 + 2.0 * move, 100.0);
+    most = std::max(most, primitivesOf(scene));
+  }
+  RecordProperty("all", all);
+  RecordProperty("most", most);
+  EXPECT_GT(most, 1000);
+  EXPECT_LT(most, all / 2) << "the nodes that reach a lens of 60 of 200 pixels";
+  const Picture last = scene.read();
+  scene.actor->ReleaseGraphicsResources(scene.window);
+  EXPECT_EQ(differing(last, scene.draw()), 0);
 }
 
 TEST(Lenses, MoreThanOpenGLHasAreDrawnBySoftwareWithAWarning)

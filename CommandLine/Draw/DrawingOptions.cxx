@@ -1,5 +1,6 @@
 #include "DrawingOptions.h"
 
+#include "EpochOption.h"
 #include "KnownWords.h"
 #include "StyleOptions.h"
 #include "Values.h"
@@ -85,6 +86,7 @@ std::optional<std::array<double, 3>> parseColour(const std::string& text)
 void DrawingOptions::declare(CLI::App& app)
 {
   app.add_option("stores", stores, "Stores, drawn together")->required()->type_name("STORE...");
+  declareEpoch(app, stores);
   declareBackend(app, *this);
   const auto imageSize = word("--size", "a size of 1 to 65535 pixels each way: write 1280x720",
     [this](const std::string& text)

@@ -2,6 +2,7 @@
 
 #include "CancelSignal.h"
 #include "COPCMemory.h"
+#include "EpochOption.h"
 #include "FarOptions.h"
 #include "KnownWords.h"
 #include "PeakMemory.h"
@@ -33,6 +34,7 @@ void ExportCommand::declare(CLI::App& program)
 {
   app_ = program.add_subcommand("export", "Write points of a store to a point file");
   app_->add_option("store", storePath_, "The store")->required()->type_name("STORE");
+  declareEpoch(*app_, storePath_);
   app_->add_option("-o,--output", outputPath_, "The file to write")->check(sinkExtension());
   declareCOPC();
   arguments_.declare(*app_);

@@ -1,6 +1,7 @@
 #include "InfoCommand.h"
 
 #include "CancelSignal.h"
+#include "EpochOption.h"
 #include "InputFiles.h"
 #include "SourceFormats.h"
 #include "SourceInfo.h"
@@ -10,6 +11,7 @@
 #include "Values.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
@@ -94,6 +96,7 @@ void InfoCommand::declare(CLI::App& program)
   app_->add_option("inputs", inputs_, "Stores, point files, glob patterns, folders")
     ->required()
     ->type_name("FILE...");
+  declareEpoch(*app_, inputs_);
   app_->add_flag("--json", json_, "Print one JSON object");
   app_->add_flag("--together", together_,
     "Describe what a folder or a list of stores holds as one cloud, not file by file");
@@ -121,7 +124,7 @@ Result<void> InfoCommand::run()
   auto reports = nlohmann::ordered_json::array();
   for (const std::string& input : inputs_) // in the order of the arguments
   {
-    if (together_)
+    if (together_ || EpochAddress::of(input).epoch)
     {
       ++inputs;
       if (Result<void> told = tellStore(input, reports); !told)

@@ -91,6 +91,12 @@ NormalFacts normalFacts(const StoreDescription& store)
     store.schema[*column].description };
 }
 
+/// Whether some tile has a date or a name.
+bool hasEpochs(const StoreDescription& store)
+{
+  return !store.epochs.empty() && !store.epochs.back().empty();
+}
+
 const char* nameOf(SplatMeasure measure)
 {
   return measure == SplatMeasure::PerPoint ? "per point"
@@ -139,6 +145,10 @@ nlohmann::ordered_json storeJson(const StoreDescription& store, const Hierarchy&
       { "points_expected", preview->pointsExpected }, { "points_read", preview->pointsRead },
       { "points_finished", preview->pointsFinished } };
   }
+  if (hasEpochs(store))
+  {
+    object["epochs"] = store.epochs;
+  }
   object["warnings"] = store.warnings;
   object["grid"] = { { "scale", { store.grid.scale.x, store.grid.scale.y, store.grid.scale.z } },
     { "offset", { store.grid.offset.x, store.grid.offset.y, store.grid.offset.z } } };
@@ -175,6 +185,14 @@ std::string storeText(const StoreDescription& store, const Hierarchy& hierarchy)
   text << "\n  attributes  " << attributesText(heldSchema(store));
   const NormalFacts normals = normalFacts(store);
   text << "\n  normals     " << normals.source << (normals.of.empty() ? "" : ": ") << normals.of;
+  if (hasEpochs(store))
+  {
+    text << "\n  epochs     ";
+    for (const std::string& epoch : store.epochs)
+    {
+      text << ' ' << (epoch.empty() ? "(without a name)" : epoch);
+    }
+  }
   for (const Layer& layer : store.layers)
   {
     text << "\n  layer       " << layer.name << " (class " << layer.objectClass

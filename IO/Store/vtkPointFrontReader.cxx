@@ -5,6 +5,7 @@
 #include "Overview.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 #include "vtkPointFrontStore.h"
@@ -22,8 +23,8 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <memory>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -169,9 +170,47 @@ vtkMTimeType vtkPointFrontReader::GetMTime()
   return std::max(this->Superclass::GetMTime(), this->PointDataArraySelection->GetMTime());
 }
 
-bool vtkPointFrontReader::OpenStore(std::size_t time)
+/// The times of the files, or of the epochs of the one that is open.
+void vtkPointFrontReader::FindSteps()
 {
-  const std::string& name = this->FileNames[time];
+  this->Steps.clear();
+  if (this->FileNames.size() > 1)
+  {
+    for (const std::string& name : this->FileNames)
+    {
+      this->Steps.push_back({ static_cast<double>(this->Steps.size()), name });
+    }
+    return;
+  }
+  const std::vector<std::string>& epochs = this->Store->GetStore()->description().epochs;
+  if (epochs.size() < 2)
+  {
+    return;
+  }
+  for (const pointfront::EpochTime& epoch : pointfront::timesOf(epochs))
+  {
+    this->Steps.push_back(
+      { epoch.time, pointfront::EpochAddress{ this->FileNames.front(), epoch.name }.text() });
+  }
+}
+
+/// The store of the time that somebody asks for: between two steps the earlier one.
+const std::string& vtkPointFrontReader::NameAt(vtkInformation* output, double& time) const
+{
+  const bool asked = output->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()) != 0;
+  if (this->Steps.empty() || (!asked && this->FileNames.size() == 1))
+  {
+    return this->FileNames.front();
+  }
+  time = asked ? output->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP()) : 0.0;
+  const auto behind = std::find_if(this->Steps.begin() + 1, this->Steps.end(),
+    [time](const Step& step) { return step.time > time; });
+  time = std::prev(behind)->time;
+  return std::prev(behind)->name;
+}
+
+bool vtkPointFrontReader::OpenStore(const std::string& name)
+{
   vtkStdString reason;
   this->Store = vtkPointFrontStore::Open(name.c_str(), reason);
   if (!this->Store)
@@ -211,11 +250,12 @@ int vtkPointFrontReader::RequestInformation(
   // The first comes last and stays.
   for (std::size_t time = this->FileNames.size(); time-- > 0;)
   {
-    if (!this->OpenStore(time))
+    if (!this->OpenStore(this->FileNames[time]))
     {
       return 0;
     }
   }
+  this->FindSteps();
   for (const std::string& warning : this->Store->GetStore()->description().warnings)
   {
     vtkWarningMacro(<< this->Store->GetFileName() << ": " << warning);
@@ -227,10 +267,13 @@ int vtkPointFrontReader::RequestInformation(
   output->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
   output->Remove(vtkStreamingDemandDrivenPipeline::TIME_STEPS());
   output->Remove(vtkStreamingDemandDrivenPipeline::TIME_RANGE());
-  if (this->FileNames.size() > 1)
+  if (!this->Steps.empty())
   {
-    std::vector<double> times(this->FileNames.size());
-    std::iota(times.begin(), times.end(), 0.0);
+    std::vector<double> times;
+    for (const Step& step : this->Steps)
+    {
+      times.push_back(step.time);
+    }
     const double range[2] = { times.front(), times.back() };
     output->Set(
       vtkStreamingDemandDrivenPipeline::TIME_STEPS(), times.data(), static_cast<int>(times.size()));
@@ -251,17 +294,12 @@ int vtkPointFrontReader::RequestData(
   const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   const int pieces =
     std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));
-  const double last = static_cast<double>(this->FileNames.size() - 1);
-  const double asked = info->Has(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
-    ? info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_TIME_STEP())
-    : 0.0;
-  // Between two steps the earlier one is shown.
-  const double time = std::clamp(std::floor(asked), 0.0, last);
-  if (!this->OpenStore(static_cast<std::size_t>(time)))
+  double time = std::numeric_limits<double>::quiet_NaN(); // without times
+  if (!this->OpenStore(this->NameAt(info, time)))
   {
     return 0;
   }
-  if (this->FileNames.size() > 1)
+  if (!std::isnan(time))
   {
     output->GetInformation()->Set(vtkDataObject::DATA_TIME_STEP(), time);
   }

@@ -63,6 +63,9 @@ public:
   /**
    * Stores of the same cloud at several times, in their order: time steps 0, 1, 2 ... The output is
    * the overview of the store of the requested time. SetFileName() reduces the list to one file.
+   * A collection whose tiles have several epochs has them as its time steps, if it is the only
+   * file: their years (2019; "2019-07" is 2019.5) if all are dates, else 0, 1, 2 ... in the order
+   * of their names. Without a requested time it is the cloud of all its tiles.
    */
   void AddFileName(VTK_FILEPATH const char* fileName);
   void RemoveAllFileNames();
@@ -130,7 +133,16 @@ protected:
   vtkSmartPointer<vtkPointFrontStore> Store;
 
 private:
-  bool OpenStore(std::size_t time);
+  struct Step
+  {
+    double time;
+    std::string name; ///< the store's
+  };
+  bool OpenStore(const std::string& name);
+  void FindSteps();
+  const std::string& NameAt(vtkInformation* output, double& time) const;
+
+  std::vector<Step> Steps; ///< ascending; none: one store without times
 
   struct Found;
   bool Fill(Found&& found, int piece, int pieces, vtkPolyData* output);

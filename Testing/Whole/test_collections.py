@@ -69,6 +69,41 @@ class Collections(ToolTest):
         self.assertGreater(json.loads(bench.read_text())["points_drawn"]["max"], 1000)
         self.assertEqual(len(stores), 8)
 
+    def test_epochs_are_drawn_and_exported_alone(self):
+        """Each epoch's picture is that of its stores alone, and so are its points."""
+        view = ("--view", "top", "--size", "300x200", "--technique", "points", "--point-size", "2")
+        for year, lift in (("2019", 0.0), ("2024", 40.0)):
+            for number in range(3):
+                self.tile(number + (5 if year == "2024" else 0), folder=year, lift=lift)
+        self.collection("create", self.city, self.folder / "2019", "--epoch", "2019")
+        self.collection("add", self.city, self.folder / "2024", "--epoch", "2024")
+        self.assertEqual(self.succeed("info", self.city, "--json").json["epochs"], ["2019", "2024"])
+        pictures = []
+        for year in ("2019", "2024"):
+            told = self.succeed("info", self.city, "--epoch", year, "--json").json
+            self.assertEqual((told["points"], told["epochs"]), (9000, [year]))
+            for name, source in (("epoch", (self.city, "--epoch", year)),
+                                 ("address", (f"{self.city}#epoch={year}",)),
+                                 ("stores", (self.folder / year,))):
+                self.succeed("render", *source, "-o", self.folder / f"{name}.png", *view)
+                self.succeed("export", *source, "-o", self.folder / f"{name}.xyz", "--force")
+            for name in ("address", "stores"):
+                alike = self.succeed("compare", self.folder / "epoch.png",
+                                     self.folder / f"{name}.png", "--json").json
+                self.assertGreater(alike["psnr"], 40, (year, name, alike))
+            texts = [sorted((self.folder / f"{name}.xyz").read_text().split("\n"))
+                     for name in ("epoch", "address", "stores")]
+            self.assertEqual(texts[0], texts[1])
+            self.assertEqual(texts[0], texts[2])
+            pictures.append((self.folder / "epoch.png").read_bytes())
+        self.assertNotEqual(*pictures)
+        told = self.refuse(1, "render", self.city, "--epoch", "1999", "-o",
+                           self.folder / "none.png")
+        self.assertIn("it has: 2019, 2024", told.err)
+        told = self.refuse(1, "render", self.folder / "2019" / "tile_0.pfront", "--epoch", "2019",
+                           "-o", self.folder / "none.png")
+        self.assertIn("is no collection", told.err)
+
     def test_a_far_view_reads_no_tile(self):
         for number in range(12):
             self.tile(number)

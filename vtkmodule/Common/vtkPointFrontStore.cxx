@@ -3,6 +3,7 @@
 #include "CloudFormats.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Store/PreviewRecord.h"
@@ -31,30 +32,34 @@
 namespace
 {
 
-/// The identity of a file: its canonical path, and values that change when it is built anew. Of an
-/// address: its public form, and the source that is open for it.
+/// The identity of a file: its canonical path, with the epoch of a collection, and values that
+/// change when it is built anew. Of an address: its public form, and the source that is open for
+/// it.
 using FileIdentity = std::tuple<std::string, std::uintmax_t, std::int64_t>;
 
 /// Asks the server, unless the address is open. `source` is what came.
 bool identifyFar(const std::string& address, FileIdentity& identity,
   std::shared_ptr<const pointfront::ByteSource>& source, std::string& error)
 {
-  auto opened = pointfront::StoredCloudFormats::openFar(address);
+  pointfront::EpochAddress asked = pointfront::EpochAddress::of(address);
+  auto opened = pointfront::StoredCloudFormats::openFar(asked.file);
   if (!opened)
   {
     error = opened.error().what;
     return false;
   }
   source = std::move(*opened); // another one once somebody has replaced the file on its server
-  identity = { pointfront::publicForm(address), reinterpret_cast<std::uintptr_t>(source.get()), 0 };
+  asked.file = pointfront::publicForm(asked.file);
+  identity = { asked.text(), reinterpret_cast<std::uintptr_t>(source.get()), 0 };
   return true;
 }
 
 bool identify(const std::string& fileName, FileIdentity& identity, std::string& error)
 {
   std::error_code code;
+  pointfront::EpochAddress asked = pointfront::EpochAddress::of(fileName);
   const std::filesystem::path path =
-    std::filesystem::canonical(pointfront::presentStorePath(fileName), code);
+    std::filesystem::canonical(pointfront::presentStorePath(asked.file), code);
   if (code)
   {
     error = "cannot open the store " + fileName + ": " + code.message() + "; check the path";
@@ -69,8 +74,8 @@ bool identify(const std::string& fileName, FileIdentity& identity, std::string& 
     return false;
   }
   const auto written = std::filesystem::last_write_time(path, code);
-  identity = { path.string(), bytes,
-    static_cast<std::int64_t>(written.time_since_epoch().count()) };
+  asked.file = path.string();
+  identity = { asked.text(), bytes, static_cast<std::int64_t>(written.time_since_epoch().count()) };
   return true;
 }
 

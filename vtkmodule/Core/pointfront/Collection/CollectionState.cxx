@@ -125,15 +125,6 @@ Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t
   return std::move(described->parts);
 }
 
-std::uint16_t CollectionState::layerOf(const CollectedTile& tile, const Node& row) const
-{
-  const Layer& own = next_.kinds[tile.kind].layers[row.layer];
-  const auto found = std::find_if(next_.whole.layers.begin(), next_.whole.layers.end(),
-    [&](const Layer& layer)
-    { return layer.objectClass == own.objectClass && layer.name == own.name; });
-  return static_cast<std::uint16_t>(found - next_.whole.layers.begin());
-}
-
 /// A node of the tree of heads of the state before, with all below it.
 std::unique_ptr<HeadItem> CollectionState::storedItem(NodeIndex node) const
 {
@@ -196,19 +187,39 @@ Result<void> CollectionState::openTrees()
   {
     return {};
   }
+  if (last_->version == 1 && last_->epochs().size() > 1)
+  {
+    return makeError(Error::Kind::Unsupported,
+      path_ +
+        ": an older version wrote it, with several epochs in one tree; first let 'pointfront "
+        "collection compact' make a tree of each");
+  }
   const HeadTree::Load read = [this](const HeadItem& group) { return load(group); };
   const Hierarchy& table = *before_->hierarchy();
   for (const NodeIndex root : table.roots())
   {
-    const Layer& own = last_->whole.layers[table.node(root).layer];
+    NodeIndex leaf = root; // its first one: all are of the same tree
+    for (Node row = table.node(leaf); !last_->heads[leaf].root && !row.leaf();)
+    {
+      leaf = row.firstChild;
+      row = table.node(leaf);
+    }
+    const auto& is = last_->heads[leaf].root;
+    if (!is)
+    {
+      continue; // the fault of the table says why
+    }
+    const CollectedTile& tile = last_->tiles[is->first];
+    const HeadTreeKey own = last_->treeOf(tile, is->second);
+    const Layer& known = last_->whole.layers[own.layer];
     const auto found = std::find_if(next_.whole.layers.begin(), next_.whole.layers.end(),
       [&](const Layer& layer)
-      { return layer.objectClass == own.objectClass && layer.name == own.name; });
+      { return layer.objectClass == known.objectClass && layer.name == known.name; });
     // A layer that the next state lacks was that of removed tiles alone.
     const auto number = static_cast<std::uint16_t>(found - next_.whole.layers.begin());
     if (number < next_.whole.layers.size())
     {
-      trees_.emplace(number, HeadTree(storedItem(root), read));
+      trees_.emplace(HeadTreeKey{ number, own.epoch }, HeadTree(storedItem(root), read));
     }
   }
   const std::optional<Error> fault = table.fault();
@@ -234,7 +245,7 @@ Result<void> CollectionState::insertHeads(const std::vector<IncomingTile>& added
         faults[i] = own.error();
       }
     });
-  std::map<std::uint16_t, std::vector<TileHead>> byLayer;
+  std::map<HeadTreeKey, std::vector<TileHead>> byTree;
   for (std::size_t i = 0; i < added.size(); ++i)
   {
     if (faults[i])
@@ -243,7 +254,7 @@ Result<void> CollectionState::insertHeads(const std::vector<IncomingTile>& added
     }
     for (TileHead& head : heads[i])
     {
-      byLayer[layerOf(next_.tiles[first + i], head.leaf->row)].push_back(std::move(head));
+      byTree[next_.treeOf(next_.tiles[first + i], head.leaf->root)].push_back(std::move(head));
     }
   }
   if (options.progress && !options.progress({ "writing", 0, 0, 0.75, 0.0 }))
@@ -251,9 +262,9 @@ Result<void> CollectionState::insertHeads(const std::vector<IncomingTile>& added
     return makeError(Error::Kind::Cancelled, "cancelled");
   }
   const HeadTree::Load load = [this](const HeadItem& group) { return this->load(group); };
-  for (auto& [layer, own] : byLayer)
+  for (auto& [key, own] : byTree)
   {
-    HeadTree& tree = trees_.try_emplace(layer, load).first->second;
+    HeadTree& tree = trees_.try_emplace(key, load).first->second;
     if (tree.root() == nullptr)
     {
       tree.build(std::move(own));
@@ -288,7 +299,7 @@ Result<void> CollectionState::change(const std::unordered_set<std::uint32_t>& re
     return parts.error();
   }
   Result<void> done = openTrees();
-  for (auto& [layer, tree] : trees_)
+  for (auto& [key, tree] : trees_)
   {
     done = done && !removed.empty() ? tree.remove(removed) : done;
     done = done && recoded_ ? tree.loadAll() : done;
@@ -309,16 +320,17 @@ Result<CollectionReport> CollectionState::write(std::unique_ptr<OutputFile> file
 {
   const AttributeSchema schema = headsSchema();
   std::vector<const HeadItem*> roots;
-  std::vector<std::uint16_t> layers;
-  for (auto& [layer, tree] : trees_)
+  std::vector<Layer> layers; // the store's: one for each tree
+  for (auto& [key, tree] : trees_)
   {
     if (tree.root() != nullptr)
     {
       roots.push_back(tree.root());
-      layers.push_back(layer);
+      layers.push_back(next_.whole.layers[key.layer]);
+      layers.back().name += key.epoch.empty() ? "" : " of " + key.epoch;
     }
   }
-  HeadTable table(roots, layers);
+  HeadTable table(roots);
   Result<std::unique_ptr<StoreWriter>> writer = assembleStore(std::move(file), schema);
   if (!writer)
   {
@@ -335,7 +347,7 @@ Result<CollectionReport> CollectionState::write(std::unique_ptr<OutputFile> file
   heads.structure = "heads";
   heads.schema = schema;
   heads.generator = "pointfront " POINTFRONT_VERSION;
-  heads.layers = next_.whole.layers;
+  heads.layers = std::move(layers);
   heads.splatRadiusBase = next_.whole.splatRadiusBase;
   heads.metadata.push_back({ collectionOwner, collectionId, "tiles", next_.encode() });
   if (Result<void> done = (*writer)->commit(heads, table.rows(), table.roots(), table.payloads());

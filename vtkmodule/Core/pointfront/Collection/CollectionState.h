@@ -35,8 +35,6 @@ public:
   Result<CollectionReport> write(std::unique_ptr<OutputFile> file);
 
 private:
-  using LayerKey = std::pair<std::uint16_t, std::string>;
-
   void takeTiles(std::vector<IncomingTile>& added, const CollectionOptions& options);
   Result<std::vector<TileDescription::Part>> describe(std::size_t added);
   Result<void> openTrees();
@@ -45,7 +43,6 @@ private:
   Result<void> insertHeads(const std::vector<IncomingTile>& added,
     const std::vector<TileDescription::Part>& parts, const CollectionOptions& options);
   AttributeSchema headsSchema() const;
-  std::uint16_t layerOf(const CollectedTile& tile, const Node& row) const;
 
   std::string path_;
   std::shared_ptr<const PointStore> before_;
@@ -53,7 +50,7 @@ private:
   CollectionRecord next_;
   bool recoded_ = false; ///< stored points are not as the next state has them
   std::unique_ptr<TileDescription> adaption_; ///< part 1: of the whole of the state before
-  std::map<std::uint16_t, HeadTree> trees_; ///< by layer of the whole
+  std::map<HeadTreeKey, HeadTree> trees_;
 };
 
 } // namespace pointfront

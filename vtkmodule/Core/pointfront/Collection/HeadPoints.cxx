@@ -134,12 +134,12 @@ bool HeadPoints::asNode(const AttributeSchema& heads, NodeColumns& node) const
   std::iota(order.begin(), order.end(), 0);
   std::stable_sort(order.begin(), order.end(),
     [&](std::uint32_t a, std::uint32_t b) { return mortonLess(local[a], local[b]); });
-  std::vector<RankedHash> ranked;
+  std::vector<NumberedHash> hashes;
   for (const std::uint32_t i : order)
   {
-    ranked.push_back({ i, hashOf(local[i]) });
+    hashes.push_back({ i, hashOf(local[i]) });
   }
-  order = prefixBatches(std::move(ranked));
+  order = prefixBatches(std::move(hashes));
   node.origin = low;
   for (std::size_t c = 0; c < heads.size(); ++c)
   {

@@ -27,13 +27,12 @@ Result<EncodedNode> storedNode(const HeadItem& group, const PointStore& before)
 }
 } // namespace
 
-HeadTable::HeadTable(
-  const std::vector<const HeadItem*>& roots, const std::vector<std::uint16_t>& layers)
+HeadTable::HeadTable(const std::vector<const HeadItem*>& roots)
 {
   for (std::size_t r = 0; r < roots.size(); ++r)
   {
     Node row;
-    row.layer = layers[r];
+    row.layer = static_cast<std::uint16_t>(r);
     roots_.push_back(static_cast<NodeIndex>(r));
     items_.push_back(roots[r]);
     rows_.push_back(row);

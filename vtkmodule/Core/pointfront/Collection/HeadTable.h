@@ -14,8 +14,8 @@ namespace pointfront
 class HeadTable
 {
 public:
-  /// `layers` are those of the roots.
-  HeadTable(const std::vector<const HeadItem*>& roots, const std::vector<std::uint16_t>& layers);
+  /// Each root is the one of the store's layer of its number.
+  explicit HeadTable(const std::vector<const HeadItem*>& roots);
 
   /// Appends the payloads: of stored points as they lie in the state `before`, of others coded now.
   /// Errors  those of reading and writing; Unsupported: the tiles lie too far apart for their grid.

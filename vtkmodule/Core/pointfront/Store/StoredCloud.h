@@ -68,6 +68,8 @@ struct StoreDescription
   /// For a cloud that is made of others, or is a part of another: what differs or is left out, in
   /// full sentences.
   std::vector<std::string> warnings;
+  /// A collection's: dates or names of its tiles' epochs, ascending; "" for tiles that have none.
+  std::vector<std::string> epochs;
 
   bool isComputed(std::size_t column) const
   {

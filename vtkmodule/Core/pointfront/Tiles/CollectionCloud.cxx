@@ -56,8 +56,7 @@ Result<std::shared_ptr<const CollectionRecord>> CollectionCloud::recordOf(const 
   }
   const AttributeSchema& schema = heads.description().schema;
   bool same = schema.size() == record->whole.schema.size() + 1 &&
-    schema[schema.size() - 1].name == tileColumn && schema[schema.size() - 1].bytes() == 4 &&
-    heads.description().layers.size() == record->whole.layers.size();
+    schema[schema.size() - 1].name == tileColumn && schema[schema.size() - 1].bytes() == 4;
   for (std::size_t c = 0; c + 1 < schema.size() && same; ++c)
   {
     same = schema[c] == record->whole.schema[c];
@@ -75,7 +74,8 @@ Result<std::shared_ptr<const CollectionRecord>> CollectionCloud::recordOf(const 
 Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::string& path)
 {
   std::shared_ptr<CollectionCloud> cloud(new CollectionCloud);
-  Result<std::shared_ptr<const PointStore>> heads = PointStore::openHeads(path);
+  const EpochAddress asked = EpochAddress::of(path);
+  Result<std::shared_ptr<const PointStore>> heads = PointStore::openHeads(asked.file);
   if (!heads)
   {
     return heads.error();
@@ -86,9 +86,9 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
   {
     return record.error();
   }
-  cloud->tiles_ = std::make_shared<const CollectionTiles>(path, *record);
+  cloud->tiles_ = std::make_shared<const CollectionTiles>(asked.file, *record);
   Result<std::shared_ptr<const CollectionTable>> table =
-    CollectionTable::make(path, *cloud->heads_->hierarchy(), cloud->tiles_);
+    CollectionTable::make(asked.file, *cloud->heads_->hierarchy(), cloud->tiles_, asked.epoch);
   if (!table)
   {
     return table.error();
@@ -98,6 +98,11 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
   cloud->description_ = (*record)->whole;
   cloud->description_.path = path;
   cloud->description_.version = cloud->heads_->description().version;
+  cloud->description_.epochs = (*record)->epochs();
+  if (asked.epoch)
+  {
+    cloud->describeEpoch(*asked.epoch);
+  }
   cloud->description_.fileBytes += cloud->heads_->description().fileBytes;
   for (const StoreDescription& kind : (*record)->kinds)
   {
@@ -115,9 +120,42 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
   return std::shared_ptr<const CollectionCloud>(std::move(cloud));
 }
 
+/// Counts and bounds of the tiles of one epoch.
+void CollectionCloud::describeEpoch(const std::string& epoch)
+{
+  StoreDescription& whole = description_;
+  whole.epochs = { epoch };
+  whole.bounds = Bounds();
+  whole.pointCount = whole.wholeCount = whole.fileBytes = 0;
+  for (Layer& layer : whole.layers)
+  {
+    layer.pointCount = layer.nodeCount = 0;
+  }
+  for (const CollectedTile& tile : record().tiles)
+  {
+    if (tile.is.epoch != epoch)
+    {
+      continue;
+    }
+    whole.bounds.add(tile.bounds);
+    whole.pointCount += tile.pointCount;
+    whole.wholeCount += tile.wholeCount;
+    whole.fileBytes += tile.fileBytes;
+    for (std::size_t l = 0; l < tile.layers.size(); ++l)
+    {
+      const std::uint16_t at = record().layerOf(tile, static_cast<std::uint16_t>(l));
+      if (at < whole.layers.size()) // else it has no node
+      {
+        whole.layers[at].pointCount += tile.layers[l].first;
+        whole.layers[at].nodeCount += tile.layers[l].second;
+      }
+    }
+  }
+}
+
 std::vector<std::string> CollectionCloud::files() const
 {
-  std::vector<std::string> all{ description_.path };
+  std::vector<std::string> all{ heads_->description().path };
   for (std::size_t t = 0; t < record().tiles.size(); ++t)
   {
     all.push_back(tiles_->addressOf(t));
@@ -139,7 +177,7 @@ std::size_t CollectionCloud::decodedBytes(
 
 std::size_t CollectionCloud::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  const std::optional<CollectionTable::Place> at = table_->placeOf(node);
+  const std::optional<CollectionTable::TileNode> at = table_->tileNodeOf(node);
   if (!at)
   {
     return heads_->storedBytes(node, columns);
@@ -162,7 +200,7 @@ Result<FetchedNode> CollectionCloud::wrapped(
   {
     return inner;
   }
-  const std::optional<CollectionTable::Place> at = table_->placeOf(node);
+  const std::optional<CollectionTable::TileNode> at = table_->tileNodeOf(node);
   FetchedNode fetched{ node, columns, {}, inner->bytesRead,
     at ? table_->shifted(*at, inner->row) : table_->node(node) };
   fetched.inner = std::make_shared<const FetchedNode>(std::move(*inner));
@@ -194,7 +232,7 @@ std::vector<Result<FetchedNode>> CollectionCloud::fetchAll(
   std::map<std::size_t, std::vector<std::size_t>> places; // by tile, in `wanted`
   for (std::size_t i = 0; i < wanted.size(); ++i)
   {
-    const std::optional<CollectionTable::Place> at = table_->placeOf(wanted[i].node);
+    const std::optional<CollectionTable::TileNode> at = table_->tileNodeOf(wanted[i].node);
     places[at ? at->tile : ofHeads].push_back(i);
   }
   std::vector<std::optional<Result<FetchedNode>>> found(wanted.size());
@@ -216,7 +254,7 @@ std::vector<Result<FetchedNode>> CollectionCloud::fetchAll(
       }
       asked.push_back(wanted[i]);
       own.push_back(heads ? wanted[i]
-                          : WantedNode{ table_->placeOf(wanted[i].node)->node,
+                          : WantedNode{ table_->tileNodeOf(wanted[i].node)->node,
                               (*open)->part.columns.own(wanted[i].columns) });
     }
     if (open)
@@ -240,7 +278,7 @@ std::vector<Result<FetchedNode>> CollectionCloud::fetchAll(
 
 Result<NodeColumns> CollectionCloud::decode(const FetchedNode& fetched) const
 {
-  const std::optional<CollectionTable::Place> at = table_->placeOf(fetched.node);
+  const std::optional<CollectionTable::TileNode> at = table_->tileNodeOf(fetched.node);
   const CollectionTiles::Tile* const tile = at ? tiles_->opened(at->tile) : nullptr;
   Result<NodeColumns> inner =
     at ? tile->cloud->decode(*fetched.inner) : heads_->decode(*fetched.inner);
@@ -309,7 +347,7 @@ Result<std::shared_ptr<const NodeRanges>> CollectionCloud::nodeRanges(
   for (NodeIndex i = count; i-- > 0;)
   {
     const Node row = table_->node(i);
-    if (const std::optional<CollectionTable::Place> at = table_->placeOf(i))
+    if (const std::optional<CollectionTable::TileNode> at = table_->tileNodeOf(i))
     {
       own[i] = below[i] = rangeOf(at->tile, component);
       continue;

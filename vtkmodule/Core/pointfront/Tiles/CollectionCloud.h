@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Tiles/CollectionTable.h"
@@ -20,11 +21,15 @@ namespace pointfront
 ///             (TiledCloud has the rules).
 /// Ranges      of nodes: those of groups, and of tiles as a whole. Nodes inside a tile may have any
 ///             value.
-/// Errors      open: those of PointStore; Unsupported: a newer version. Of a tile: CollectionTiles.
+/// Errors      open: those of PointStore; Unsupported: a newer version; NotFound: no such epoch. Of
+///             a tile: CollectionTiles.
 /// Threads     all functions are safe from any thread.
 class CollectionCloud final : public StoredCloud
 {
 public:
+  /// `path` may name an epoch (EpochAddress): then the cloud's points are those of its tiles, with
+  /// the numbers that they have among all. Ranges stay those of all tiles, so that colours by a
+  /// range mean the same in each epoch.
   static Result<std::shared_ptr<const CollectionCloud>> open(const std::string& path);
   /// The record in a collection's open file.
   static Result<std::shared_ptr<const CollectionRecord>> recordOf(const PointStore& heads);
@@ -65,6 +70,7 @@ private:
     const std::vector<WantedNode>& own, const std::vector<WantedNode>& wanted,
     const ReadStop& stop) const;
   ValueRange rangeOf(std::size_t tile, std::uint32_t component) const;
+  void describeEpoch(const std::string& epoch);
 
   std::shared_ptr<const PointStore> heads_;
   std::shared_ptr<const CollectionTiles> tiles_;
@@ -82,7 +88,7 @@ public:
   std::string name() const override { return "collection"; }
   bool accepts(const std::string& path) const override
   {
-    return PointStore::looksLikeCollection(path);
+    return PointStore::looksLikeCollection(EpochAddress::of(path).file);
   }
   Result<std::shared_ptr<const StoredCloud>> open(const std::string& path) const override;
 };

@@ -3,6 +3,8 @@
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Store/DescriptionSection.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 namespace pointfront
@@ -235,10 +237,34 @@ StoreDescription CollectionRecord::description(std::size_t tile, const std::stri
   return own;
 }
 
+std::uint16_t CollectionRecord::layerOf(const CollectedTile& tile, std::uint16_t own) const
+{
+  const Layer& is = kinds[tile.kind].layers[own];
+  const auto found = std::find_if(whole.layers.begin(), whole.layers.end(),
+    [&](const Layer& layer)
+    { return layer.objectClass == is.objectClass && layer.name == is.name; });
+  return static_cast<std::uint16_t>(found - whole.layers.begin());
+}
+
+HeadTreeKey CollectionRecord::treeOf(const CollectedTile& tile, std::size_t root) const
+{
+  return { layerOf(tile, tile.roots[root].row.layer), tile.is.epoch };
+}
+
+std::vector<std::string> CollectionRecord::epochs() const
+{
+  std::set<std::string> all;
+  for (const CollectedTile& tile : tiles)
+  {
+    all.insert(tile.is.epoch);
+  }
+  return { all.begin(), all.end() };
+}
+
 std::vector<std::byte> CollectionRecord::encode() const
 {
   ByteWriter out;
-  out.put(newest);
+  out.put(epochs().size() > 1 ? newest : std::uint32_t(1));
   out.put(state);
   out.put(nextId);
   putWhole(out, whole);

@@ -29,6 +29,18 @@ struct CollectionChange
   std::vector<TileName> removed;
 };
 
+/// A tree of heads has one layer of the whole, and the tiles of one epoch.
+struct HeadTreeKey
+{
+  std::uint16_t layer = 0;
+  std::string epoch; ///< "": the tiles that have none
+
+  friend bool operator<(const HeadTreeKey& a, const HeadTreeKey& b)
+  {
+    return a.epoch != b.epoch ? a.epoch < b.epoch : a.layer < b.layer;
+  }
+};
+
 /// All that a collection's file holds besides the heads' points.
 /// Format  docs/formats/pfcollection.md
 struct CollectionRecord
@@ -43,13 +55,19 @@ struct CollectionRecord
 
   /// A description as that of the open tile, with `path`.
   StoreDescription description(std::size_t tile, const std::string& path) const;
+  /// Number in the whole of a layer of a tile. The whole lacks it: as many as the whole has.
+  std::uint16_t layerOf(const CollectedTile& tile, std::uint16_t own) const;
+  /// The tree that a root of a tile hangs in.
+  HeadTreeKey treeOf(const CollectedTile& tile, std::size_t root) const;
+  /// Those of all tiles, ascending; "" where some tiles have none.
+  std::vector<std::string> epochs() const;
 
   std::vector<std::byte> encode() const;
   /// Nothing: the bytes contradict themselves, or each other. A record of a newer version gives a
   /// record without tiles and its version.
   static std::optional<CollectionRecord> decode(const std::byte* data, std::size_t size);
   std::uint32_t version = newest;
-  static constexpr std::uint32_t newest = 1;
+  static constexpr std::uint32_t newest = 2; ///< 2: trees of epochs; they are written as 2 only
 };
 
 /// The column of the heads' store, behind those of the whole, with the id of each point's tile.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cassert>
+#include <map>
 
 namespace pointfront
 {
@@ -16,11 +17,13 @@ CollectionTable::CollectionTable(std::shared_ptr<const CollectionTiles> tiles)
 
 CollectionTable::~CollectionTable() = default;
 
-Result<std::shared_ptr<const CollectionTable>> CollectionTable::make(
-  const std::string& path, const Hierarchy& heads, std::shared_ptr<const CollectionTiles> tiles)
+Result<std::shared_ptr<const CollectionTable>> CollectionTable::make(const std::string& path,
+  const Hierarchy& heads, std::shared_ptr<const CollectionTiles> tiles,
+  const std::optional<std::string>& epoch)
 {
   std::shared_ptr<CollectionTable> table(new CollectionTable(std::move(tiles)));
   std::string fault = table->takeHeads(heads);
+  fault = fault.empty() ? table->nameTrees() : fault;
   fault = fault.empty() ? table->joinRoots() : fault;
   if (!fault.empty())
   {
@@ -30,6 +33,11 @@ Result<std::shared_ptr<const CollectionTable>> CollectionTable::make(
   if (Result<void> numbered = table->number(path); !numbered)
   {
     return numbered.error();
+  }
+  if (const Result<void> chosen = epoch ? table->chooseRoots(path, *epoch) : Result<void>();
+      !chosen)
+  {
+    return chosen.error();
   }
   return std::shared_ptr<const CollectionTable>(std::move(table));
 }
@@ -80,6 +88,73 @@ std::string CollectionTable::takeHeads(const Hierarchy& heads)
     }
   }
   return linked == count ? "" : "heads are not one tree for each layer";
+}
+
+/// Finds the layer of the whole and the epoch of each tree, by the tiles below it.
+std::string CollectionTable::nameTrees()
+{
+  const CollectionRecord& record = tiles_->record();
+  std::map<std::uint16_t, HeadTreeKey> trees; // by layer of the heads' store
+  for (std::size_t i = 0; i < rows_.size(); ++i)
+  {
+    if (const auto& root = record.heads[i].root)
+    {
+      HeadTreeKey key = record.treeOf(record.tiles[root->first], root->second);
+      const HeadTreeKey& known = trees.try_emplace(rows_[i].layer, key).first->second;
+      const bool mixes = known.epoch != key.epoch;
+      if (known.layer != key.layer || key.layer >= record.whole.layers.size() ||
+        (mixes && record.version > 1))
+      {
+        return "a tree of heads has tiles of several layers or epochs";
+      }
+      mixesEpochs_ = mixesEpochs_ || mixes;
+    }
+  }
+  for (const NodeIndex root : roots_)
+  {
+    const auto tree = trees.find(rows_[root].layer);
+    if (tree == trees.end())
+    {
+      return "a tree of heads has no tile";
+    }
+    epochs_.push_back(tree->second.epoch);
+  }
+  for (Node& row : rows_)
+  {
+    row.layer = trees.at(row.layer).layer; // that of its root
+  }
+  return {};
+}
+
+Result<void> CollectionTable::chooseRoots(const std::string& path, const std::string& epoch)
+{
+  std::vector<NodeIndex> chosen;
+  for (std::size_t r = 0; r < roots_.size(); ++r)
+  {
+    if (epochs_[r] == epoch)
+    {
+      chosen.push_back(roots_[r]);
+    }
+  }
+  if (mixesEpochs_)
+  {
+    return makeError(Error::Kind::Unsupported,
+      path +
+        ": an older version wrote it, with several epochs in one tree; 'pointfront collection "
+        "compact' makes a tree of each");
+  }
+  if (chosen.empty())
+  {
+    std::string known;
+    for (const std::string& other : tiles_->record().epochs())
+    {
+      known += (known.empty() ? "" : ", ") + (other.empty() ? "one without a name" : other);
+    }
+    return makeError(
+      Error::Kind::NotFound, path + ": has no epoch '" + epoch + "'; it has: " + known);
+  }
+  roots_ = std::move(chosen);
+  return {};
 }
 
 /// Makes the leaves of the tree of heads the roots of the tiles.
@@ -163,7 +238,7 @@ std::size_t CollectionTable::tileOf(NodeIndex node) const
   return static_cast<std::size_t>(behind - firstNodes_.begin()) - 1;
 }
 
-std::optional<CollectionTable::Place> CollectionTable::placeOf(NodeIndex node) const
+std::optional<CollectionTable::TileNode> CollectionTable::tileNodeOf(NodeIndex node) const
 {
   if (node < rows_.size())
   {
@@ -173,7 +248,7 @@ std::optional<CollectionTable::Place> CollectionTable::placeOf(NodeIndex node) c
       return std::nullopt;
     }
     const TileRoot& is = known(root->first).roots[root->second];
-    return Place{ root->first, is.node, is.head };
+    return TileNode{ root->first, is.node, is.head };
   }
   const std::size_t tile = tileOf(node);
   NodeIndex own = node - firstNodes_[tile];
@@ -181,7 +256,7 @@ std::optional<CollectionTable::Place> CollectionTable::placeOf(NodeIndex node) c
   {
     own += root.node <= own ? 1 : 0;
   }
-  return Place{ tile, own, 0 };
+  return TileNode{ tile, own, 0 };
 }
 
 NodeIndex CollectionTable::indexOf(std::size_t tile, NodeIndex own) const
@@ -212,7 +287,7 @@ const Node& CollectionTable::leafOfLayer(std::size_t tile, std::uint16_t layer) 
   return rows_[leaves_[tile].front()];
 }
 
-Node CollectionTable::shifted(const Place& at, Node row) const
+Node CollectionTable::shifted(const TileNode& at, Node row) const
 {
   const NodeIndex index = indexOf(at.tile, at.node);
   if (index < rows_.size())
@@ -244,7 +319,7 @@ Node CollectionTable::node(NodeIndex index) const
   {
     return rows_[index];
   }
-  const Place at = *placeOf(index);
+  const TileNode at = *tileNodeOf(index);
   const Result<const CollectionTiles::Tile*> tile = openTile(at.tile);
   return tile ? shifted(at, (*tile)->cloud->hierarchy()->node(at.node)) : Node();
 }
@@ -254,14 +329,14 @@ Node CollectionTable::node(NodeIndex index) const
 Node CollectionTable::parentOf(NodeIndex firstChild, const Node& child) const
 {
   Node row;
-  row.firstChild = placeOf(firstChild)->node;
+  row.firstChild = tileNodeOf(firstChild)->node;
   row.level = static_cast<std::uint8_t>(child.level > 0 ? child.level - 1 : 0);
   return row;
 }
 
 Node CollectionTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
 {
-  const std::optional<Place> at = placeOf(parent);
+  const std::optional<TileNode> at = tileNodeOf(parent);
   if (!at)
   {
     return rows_[row.firstChild + child];
@@ -272,7 +347,7 @@ Node CollectionTable::childOf(NodeIndex parent, const Node& row, std::uint8_t ch
     return Node();
   }
   const Hierarchy& table = *(*tile)->cloud->hierarchy();
-  const Node own = parentOf(row.firstChild, table.node(placeOf(row.firstChild + child)->node));
+  const Node own = parentOf(row.firstChild, table.node(tileNodeOf(row.firstChild + child)->node));
   const Node found = table.childOf(at->node, own, child);
   return found.parent == at->node ? shifted({ at->tile, own.firstChild + child, 0 }, found)
                                   : Node();
@@ -285,7 +360,7 @@ RowState CollectionTable::peek(NodeIndex index, Node& row) const
     row = rows_[index];
     return RowState::Here;
   }
-  const Place at = *placeOf(index);
+  const TileNode at = *tileNodeOf(index);
   const CollectionTiles::Tile* const tile = tiles_->opened(at.tile);
   if (tile == nullptr)
   {
@@ -302,7 +377,7 @@ RowState CollectionTable::peek(NodeIndex index, Node& row) const
 RowState CollectionTable::peekChild(
   NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
 {
-  const std::optional<Place> at = placeOf(parent);
+  const std::optional<TileNode> at = tileNodeOf(parent);
   if (!at)
   {
     found = rows_[row.firstChild + child];
@@ -314,7 +389,7 @@ RowState CollectionTable::peekChild(
     return tiles_->failed(at->tile) ? RowState::Lost : missing_->ask(at->tile);
   }
   const Hierarchy& table = *tile->cloud->hierarchy();
-  RowState state = table.peek(placeOf(row.firstChild + child)->node, found);
+  RowState state = table.peek(tileNodeOf(row.firstChild + child)->node, found);
   const Node own = parentOf(row.firstChild, found);
   state = state == RowState::Here ? table.peekChild(at->node, own, child, found) : state;
   if (missing_->asked(state) == RowState::Here)

@@ -24,24 +24,27 @@ class CollectionTable final : public Hierarchy
 {
 public:
   /// A node of the table in what it is a part of.
-  struct Place
+  struct TileNode
   {
     std::size_t tile = 0;
     NodeIndex node = noNode; ///< in the tile's own table
     std::uint32_t head = 0; ///< so many of its first points are in groups
   };
 
-  /// `heads` is the table of the heads' store, of as many nodes as the record has.
+  /// `heads` is the table of the heads' store, of as many nodes as the record has. With an `epoch`
+  /// the roots are those of its tiles alone; nodes keep their numbers.
   /// Errors  Corrupt: the tree of heads contradicts itself or the record; NoMemory: 2^32 nodes and
-  ///         more.
-  static Result<std::shared_ptr<const CollectionTable>> make(
-    const std::string& path, const Hierarchy& heads, std::shared_ptr<const CollectionTiles> tiles);
+  ///         more; NotFound: no tile has that epoch; Unsupported: an older version put several
+  ///         epochs into one tree.
+  static Result<std::shared_ptr<const CollectionTable>> make(const std::string& path,
+    const Hierarchy& heads, std::shared_ptr<const CollectionTiles> tiles,
+    const std::optional<std::string>& epoch);
   ~CollectionTable() override;
 
   /// Nothing: a group, which has the same number in the heads' store.
-  std::optional<Place> placeOf(NodeIndex node) const;
+  std::optional<TileNode> tileNodeOf(NodeIndex node) const;
   /// The row of a tile's node as it stands in this table.
-  Node shifted(const Place& at, Node row) const;
+  Node shifted(const TileNode& at, Node row) const;
   NodeIndex headCount() const { return static_cast<NodeIndex>(rows_.size()); }
   /// The first node behind those of a tile, without its roots.
   NodeIndex nodesBehind(std::size_t tile) const { return firstNodes_[tile + 1]; }
@@ -69,6 +72,8 @@ public:
 private:
   explicit CollectionTable(std::shared_ptr<const CollectionTiles> tiles);
   std::string takeHeads(const Hierarchy& heads);
+  std::string nameTrees();
+  Result<void> chooseRoots(const std::string& path, const std::string& epoch);
   std::string joinRoots();
   Result<void> number(const std::string& path);
   const CollectedTile& known(std::size_t tile) const { return tiles_->record().tiles[tile]; }
@@ -82,6 +87,8 @@ private:
   std::vector<NodeIndex> firstNodes_; ///< by tile; the last entry is behind all
   std::vector<std::uint64_t> firstPoints_; ///< by tile; the last entry is behind all
   std::vector<NodeIndex> roots_;
+  std::vector<std::string> epochs_; ///< by root
+  bool mixesEpochs_ = false; ///< some tree has tiles of several epochs
   std::unique_ptr<CollectionRows> missing_;
 };
 

@@ -73,7 +73,7 @@ std::size_t ListedCloud::decodedBytes(
 
 std::size_t ListedCloud::storedBytes(NodeIndex node, const ColumnSelection& columns) const
 {
-  const ListedTable::Place at = table_->placeOf(node);
+  const ListedTable::TileNode at = table_->tileNodeOf(node);
   const ListedTiles::Tile* const open = tiles_->opened(at.tile);
   return at.node == noNode || open == nullptr
     ? 0
@@ -94,7 +94,7 @@ std::vector<Result<FetchedNode>> ListedCloud::fetchAll(
   std::vector<std::size_t> places;
   for (const WantedNode& want : wanted)
   {
-    const ListedTable::Place at = table_->placeOf(want.node);
+    const ListedTable::TileNode at = table_->tileNodeOf(want.node);
     results.emplace_back(FetchedNode{ want.node, want.columns, {}, 0, {} });
     if (at.node == noNode)
     {
@@ -121,7 +121,7 @@ std::vector<Result<FetchedNode>> ListedCloud::fetchAll(
       continue;
     }
     result->bytesRead = fetched[i]->bytesRead;
-    result->row = table_->shifted(table_->placeOf(result->node), fetched[i]->row);
+    result->row = table_->shifted(table_->tileNodeOf(result->node), fetched[i]->row);
     result->inner = std::make_shared<const FetchedNode>(std::move(*fetched[i]));
   }
   return results;
@@ -136,7 +136,7 @@ Result<NodeColumns> ListedCloud::decode(const FetchedNode& fetched) const
     empty.describe(fetched.row);
     return empty;
   }
-  const std::size_t tile = table_->placeOf(fetched.node).tile;
+  const std::size_t tile = table_->tileNodeOf(fetched.node).tile;
   const ListedTiles::Tile& open = *tiles_->opened(tile);
   Result<NodeColumns> result = open.cloud->decode(*fetched.inner);
   if (!result)

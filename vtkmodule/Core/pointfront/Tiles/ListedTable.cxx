@@ -84,7 +84,7 @@ Result<std::shared_ptr<const ListedTable>> ListedTable::make(
   return std::shared_ptr<const ListedTable>(std::move(table));
 }
 
-ListedTable::Place ListedTable::placeOf(NodeIndex node) const
+ListedTable::TileNode ListedTable::tileNodeOf(NodeIndex node) const
 {
   const auto behind = std::upper_bound(firstNodes_.begin(), firstNodes_.end(), node);
   const auto tile = static_cast<std::size_t>(behind - firstNodes_.begin()) - 1;
@@ -122,7 +122,7 @@ Node ListedTable::hollow(std::size_t tile) const
   return row;
 }
 
-Node ListedTable::shifted(const Place& at, Node row) const
+Node ListedTable::shifted(const TileNode& at, Node row) const
 {
   const NodeIndex above = closed_[at.tile] ? firstNodes_[at.tile] : noNode;
   row.parent = row.parent == noNode ? above : indexOf(at.tile, row.parent);
@@ -136,11 +136,11 @@ Node ListedTable::shifted(const Place& at, Node row) const
 }
 
 /// Links and level only: what a table needs to find a row's child.
-Node ListedTable::unshifted(const Place& at, Node row) const
+Node ListedTable::unshifted(const TileNode& at, Node row) const
 {
   row.level = static_cast<std::uint8_t>(row.level - (closed_[at.tile] ? 1 : 0));
-  row.parent = row.parent == noNode ? noNode : placeOf(row.parent).node;
-  row.firstChild = row.firstChild == noNode ? noNode : placeOf(row.firstChild).node;
+  row.parent = row.parent == noNode ? noNode : tileNodeOf(row.parent).node;
+  row.firstChild = row.firstChild == noNode ? noNode : tileNodeOf(row.firstChild).node;
   row.firstPoint -= firstPoints_[at.tile];
   return row;
 }
@@ -157,7 +157,7 @@ Result<const ListedTiles::Tile*> ListedTable::openTile(std::size_t tile) const
 
 Node ListedTable::node(NodeIndex index) const
 {
-  const Place at = placeOf(index);
+  const TileNode at = tileNodeOf(index);
   if (at.node == noNode)
   {
     return boxOf(at.tile);
@@ -170,20 +170,20 @@ Node ListedTable::node(NodeIndex index) const
 
 Node ListedTable::childOf(NodeIndex parent, const Node& row, std::uint8_t child) const
 {
-  const Place at = placeOf(parent);
+  const TileNode at = tileNodeOf(parent);
   if (at.node == noNode)
   {
     return node(row.firstChild);
   }
   const Result<const ListedTiles::Tile*> open = openTile(at.tile);
-  return open ? shifted({ at.tile, placeOf(row.firstChild + child).node },
+  return open ? shifted({ at.tile, tileNodeOf(row.firstChild + child).node },
                   (*open)->cloud->hierarchy()->childOf(at.node, unshifted(at, row), child))
               : hollow(at.tile);
 }
 
 RowState ListedTable::peek(NodeIndex index, Node& row) const
 {
-  const Place at = placeOf(index);
+  const TileNode at = tileNodeOf(index);
   if (at.node == noNode)
   {
     row = boxOf(at.tile);
@@ -218,7 +218,7 @@ RowState ListedTable::peek(NodeIndex index, Node& row) const
 RowState ListedTable::peekChild(
   NodeIndex parent, const Node& row, std::uint8_t child, Node& found) const
 {
-  const Place at = placeOf(parent);
+  const TileNode at = tileNodeOf(parent);
   const ListedTiles::Tile* const open = tiles_->opened(at.tile);
   if (at.node == noNode || open == nullptr)
   {
@@ -228,7 +228,7 @@ RowState ListedTable::peekChild(
     open->cloud->hierarchy()->peekChild(at.node, unshifted(at, row), child, found);
   if (state == RowState::Here)
   {
-    found = shifted({ at.tile, placeOf(row.firstChild + child).node }, found);
+    found = shifted({ at.tile, tileNodeOf(row.firstChild + child).node }, found);
   }
   else if (state == RowState::Coming)
   {

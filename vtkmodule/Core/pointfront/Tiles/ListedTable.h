@@ -26,14 +26,14 @@ public:
   ~ListedTable() override;
 
   /// A node in its tile.
-  struct Place
+  struct TileNode
   {
     std::size_t tile = 0;
     NodeIndex node = noNode; ///< in the tile's own table; noNode: the box of a tile
   };
-  Place placeOf(NodeIndex node) const;
+  TileNode tileNodeOf(NodeIndex node) const;
   /// The row of that node, as it stands in its tile, as it stands in this table.
-  Node shifted(const Place& at, Node row) const;
+  Node shifted(const TileNode& at, Node row) const;
   /// The tile, opened now if it is closed. A failure is a fault of this table.
   Result<const ListedTiles::Tile*> openTile(std::size_t tile) const;
 
@@ -64,7 +64,7 @@ private:
   {
     return firstNodes_[tile] + (closed_[tile] ? 1 : 0) + own;
   }
-  Node unshifted(const Place& at, Node row) const;
+  Node unshifted(const TileNode& at, Node row) const;
   Node hollow(std::size_t tile) const;
 
   std::shared_ptr<const ListedTiles> tiles_;

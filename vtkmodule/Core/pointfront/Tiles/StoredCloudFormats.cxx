@@ -1,6 +1,7 @@
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/CollectionCloud.h"
 #include "pointfront/Tiles/TileFormat.h"
@@ -98,7 +99,7 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
   std::shared_ptr<const ByteSource> held; // a source that is open is the same for all
   if (isAddress(path))
   {
-    Result<std::shared_ptr<const ByteSource>> source = openFar(path);
+    Result<std::shared_ptr<const ByteSource>> source = openFar(EpochAddress::of(path).file);
     if (!source)
     {
       return source.error();
@@ -106,6 +107,13 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
     held = std::move(*source);
   }
   const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
+  if (const EpochAddress asked = EpochAddress::of(path);
+      !format && asked.epoch && accepts(asked.file))
+  {
+    return makeError(Error::Kind::BadArgument,
+      "'" + asked.file + "' is no collection, and nothing else has epochs; leave out '" +
+        *asked.epoch + "'");
+  }
   if (!format && !held && std::filesystem::exists(path) && accepts(path + indexExtension))
   {
     return makeError(Error::Kind::BadFormat,

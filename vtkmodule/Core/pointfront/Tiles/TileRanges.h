@@ -9,7 +9,8 @@ namespace pointfront
 {
 
 /// Puts the ranges of tables, one behind the other, together as those of one table.
-/// Marks    all that the tables have if they are 256 at most; else 256 of them at equal ranks, and
+/// Marks    all that the tables have if they are 256 at most; else 256 of them with equally many
+/// values between, and
 ///          ranges are rounded outwards to those.
 class TileRanges
 {

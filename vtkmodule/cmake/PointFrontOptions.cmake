@@ -72,6 +72,12 @@ if (CCACHE_PROGRAM AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
 endif ()
 
+# The same bits on each machine: a product and a sum are rounded twice, whether or not the processor
+# can round them once (FMA). GCC and Clang contract them unless they are told not to.
+if (CMAKE_CXX_COMPILER_ID MATCHES "^(GNU|Clang|AppleClang)$")
+  add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-ffp-contract=off>)
+endif ()
+
 if (POINTFRONT_BUILD_FUZZERS)
   add_compile_options(-fsanitize=fuzzer-no-link) # coverage of the libraries leads the fuzzer
   add_compile_definitions(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION) # checksums always match

@@ -71,15 +71,15 @@ void DrawnStore::enterWindow(std::shared_ptr<const WindowDemand> window)
 }
 
 const FrontDelta& DrawnStore::update(
-  FrameRequest demand, const FrameCamera& camera, const FrameShading& shading)
+  FrameRequest request, const FrameCamera& camera, const FrameShading& shading)
 {
-  demand.columns = columns_;
-  demand.layers = limits_;
-  limitToLenses(styles_, shading, camera, std::max(demand.targetErrorPx, last().thresholdPx),
-    tallestWall_, demand.layers);
-  demand.view =
-    withSplatsFromAside(withWallsFromAbove(demand.view, tallestWall_), largestSplat(styles_));
-  return view_.update(std::move(demand));
+  request.columns = columns_;
+  request.layers = limits_;
+  limitToLenses(styles_, shading, camera, std::max(request.targetErrorPx, last().thresholdPx),
+    tallestWall_, request.layers);
+  request.view =
+    withSplatsFromAside(withWallsFromAbove(request.view, tallestWall_), largestSplat(styles_));
+  return view_.update(std::move(request));
 }
 
 FramePlan DrawnStore::plan(

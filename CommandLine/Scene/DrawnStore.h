@@ -30,10 +30,10 @@ public:
   /// From then on it is drawn, beside others of the same window. Styles first.
   void enterWindow(std::shared_ptr<const WindowDemand> window);
 
-  /// Moves the front on; `demand` lacks what is the store's own: its columns and layers.
+  /// Moves the front on; `request` lacks what is the store's own: its columns and layers.
   /// `camera`, `shading`: of the frame; what is seen in lenses only is loaded for these.
   const FrontDelta& update(
-    FrameRequest demand, const FrameCamera& camera, const FrameShading& shading);
+    FrameRequest request, const FrameCamera& camera, const FrameShading& shading);
   const FrontDelta& last() const { return view_.front()->last(); }
   /// Plans the drawing of the last update; `moment` says how detail grows in it.
   FramePlan plan(

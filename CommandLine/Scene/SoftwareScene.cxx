@@ -125,28 +125,28 @@ void SoftwareScene::setCamera(const Camera& camera)
 }
 
 /// But for what each store adds of its own.
-FrameRequest SoftwareScene::demand(const View& view, bool complete) const
+FrameRequest SoftwareScene::frameRequest(const View& view, bool complete) const
 {
-  FrameRequest demand;
-  demand.method =
+  FrameRequest request;
+  request.method =
     options_.detail == "view" ? DetailMethod::ViewSpecific : DetailMethod::RenderingFront;
-  demand.view = view;
-  demand.targetErrorPx = options_.errorPx;
+  request.view = view;
+  request.targetErrorPx = options_.errorPx;
   const std::uint64_t unsaid = complete ? 0 : framePointBudget;
-  demand.pointBudget =
+  request.pointBudget =
     options_.pointBudget > 0 ? static_cast<std::uint64_t>(options_.pointBudget) : unsaid;
-  demand.interacting = interactive_ && !complete;
-  demand.frameMs = options_.frameMs > 0.0 ? options_.frameMs : frameMsInMotion;
-  demand.complete = complete;
+  request.interacting = interactive_ && !complete;
+  request.frameMs = options_.frameMs > 0.0 ? options_.frameMs : frameMsInMotion;
+  request.complete = complete;
   // Where a signal is kept for later (renderInBands), waiting for points ends with it.
-  demand.aborted = [] { return CancelSignal::requested(); };
-  return demand;
+  request.aborted = [] { return CancelSignal::requested(); };
+  return request;
 }
 
 /// Moves the fronts, and records their state before the frame is drawn.
 FrameRecord SoftwareScene::updateFronts(const View& view, bool complete)
 {
-  ownMs_ = stores_.update(demand(view, complete), camera_, shading_);
+  ownMs_ = stores_.update(frameRequest(view, complete), camera_, shading_);
   FrameRecord frame = stores_.record();
   frame.frontMilliseconds = std::accumulate(ownMs_.begin(), ownMs_.end(), 0.0);
   // In motion the frame time limits the front: at rest the same view may show more.

@@ -74,7 +74,7 @@ private:
   struct DrawnNodes;
   explicit SoftwareScene(const DrawingOptions& options);
   Result<void> shareMemory();
-  FrameRequest demand(const View& view, bool complete) const;
+  FrameRequest frameRequest(const View& view, bool complete) const;
   FrameRecord updateFronts(const View& view, bool complete);
   void drawPart(SoftwareRasteriser& rasteriser, const PixelRectangle& place, FrameRecord& frame);
   Result<FrameRecord> render(bool complete);

@@ -121,7 +121,7 @@ bool MapperFronts::needsRender()
 }
 
 bool MapperFronts::follow(
-  vtkRenderer* renderer, const std::function<FrameRequest()>& demand, const LayersOf& layersOf)
+  vtkRenderer* renderer, const std::function<FrameRequest()>& requestOf, const LayersOf& layersOf)
 {
   // Between frames only: the fronts of a frame refer to their store.
   if (!store_ || !store_->IsPreview() || !of(renderer).NewFrame)
@@ -142,7 +142,7 @@ bool MapperFronts::follow(
   {
     if (view.View.front() || viewing == renderer)
     {
-      FrameRequest wanted = viewing == renderer ? demand() : view.View.request();
+      FrameRequest wanted = viewing == renderer ? requestOf() : view.View.request();
       wanted.layers = layersOf(*succession_->store());
       succession_->advance(viewing, std::move(wanted));
     }

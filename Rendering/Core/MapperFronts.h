@@ -51,8 +51,8 @@ public:
   using LayersOf = std::function<std::vector<LayerLimits>(vtkPointFrontStore&)>;
   /// Changes from a preview to its next version, or to the finished store, as soon as the successor
   /// shows as much in all views. Called in frames at rest. True when it changed.
-  bool follow(
-    vtkRenderer* renderer, const std::function<FrameRequest()>& demand, const LayersOf& layersOf);
+  bool follow(vtkRenderer* renderer, const std::function<FrameRequest()>& requestOf,
+    const LayersOf& layersOf);
 
 private:
   bool isSeen() const;

@@ -15,7 +15,7 @@ StoreSuccession::StoreSuccession(
   store_->SetHostMemoryBudget(preview.GetHostMemoryBudget());
 }
 
-void StoreSuccession::advance(vtkRenderer* renderer, FrameRequest demand)
+void StoreSuccession::advance(vtkRenderer* renderer, FrameRequest request)
 {
   const AttributeSchema& schema = store_->GetStore()->description().schema;
   std::unique_ptr<ViewFront>& front = fronts_[renderer];
@@ -25,12 +25,12 @@ void StoreSuccession::advance(vtkRenderer* renderer, FrameRequest demand)
       std::make_shared<WindowDemand>()); // not in the window yet: it takes nothing from the others
   }
   // Its layers may be others: each gets what any of the preview's has.
-  ColumnSelection columns = demand.columns.any();
+  ColumnSelection columns = request.columns.any();
   const auto unknown = std::remove_if(
     columns.begin(), columns.end(), [&](std::uint32_t column) { return column >= schema.size(); });
   columns.erase(unknown, columns.end());
-  demand.columns = columns;
-  front->update(demand);
+  request.columns = columns;
+  front->update(request);
 }
 
 bool StoreSuccession::ready(vtkRenderer* renderer) const

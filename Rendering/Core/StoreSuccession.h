@@ -29,9 +29,9 @@ public:
   StoreSuccession(vtkSmartPointer<vtkPointFrontStore> successor, vtkPointFrontStore& preview,
     int piece, int pieces);
 
-  /// Moves the successor's front for that renderer. `demand`: the demand on the front that is
+  /// Moves the successor's front for that renderer. `request`: the request of the front that is
   /// drawn, with the layers of the successor.
-  void advance(vtkRenderer* renderer, FrameRequest demand);
+  void advance(vtkRenderer* renderer, FrameRequest request);
   /// Whether the front for that renderer shows everything that its view asks for.
   bool ready(vtkRenderer* renderer) const;
   /// Whether nodes arrived, or work is left.

@@ -130,7 +130,7 @@ pointfront::PlanRequest vtkPointFrontMapper::GetRequest(
 pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
   vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
-  pointfront::FrameRequest demand;
+  pointfront::FrameRequest request;
   const std::vector<pointfront::LayerStyling>& styling = look.layers;
   const double walls =
     pointfront::tallestWall(this->GetStore()->GetStore()->description(), styling);
@@ -142,46 +142,47 @@ pointfront::FrameRequest vtkPointFrontMapper::GetFrameRequest(
     return pointfront::withSplatsFromAside(
       pointfront::withWallsFromAbove(pointfront::viewOf(renderer, actor, around), walls), splats);
   };
-  demand.view = viewWith(tile.sight(margin, styling));
-  demand.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
+  request.view = viewWith(tile.sight(margin, styling));
+  request.layers = this->Internals->Limits.layersOf(*this->GetStore(), styling,
     look.shading ? this->Internals->Style.pruning()
                  : std::vector<std::shared_ptr<const pointfront::NodePruning>>());
   if (look.shading && !look.shading->lenses.empty())
   {
-    pointfront::PlanRequest request;
-    place(renderer, actor, look, request);
-    pointfront::limitToLenses(styling, request.shading, request.camera,
-      std::max(this->TargetError, this->GetStatistics().thresholdPx), walls, demand.layers);
+    pointfront::PlanRequest placed;
+    place(renderer, actor, look, placed);
+    pointfront::limitToLenses(styling, placed.shading, placed.camera,
+      std::max(this->TargetError, this->GetStatistics().thresholdPx), walls, request.layers);
   }
-  tile.limit(viewWith, margin, styling, demand.layers);
+  tile.limit(viewWith, margin, styling, request.layers);
   pointfront::GpuStreams streams;
   for (const pointfront::LayerStyling& layer : styling)
   {
-    demand.columns.layers.push_back(layer.columns());
+    request.columns.layers.push_back(layer.columns());
     streams.add(pointfront::GpuStreams::of(layer.styles));
   }
-  demand.gpuStreams = streams.count();
-  demand.targetErrorPx = this->TargetError;
-  demand.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
-  demand.gpuBytes = look.inHostMemory ? 0 : this->GPUMemoryBudget;
-  demand.method = this->DetailSelection == VIEW_SPECIFIC ? pointfront::DetailMethod::ViewSpecific
-                                                         : pointfront::DetailMethod::RenderingFront;
+  request.gpuStreams = streams.count();
+  request.targetErrorPx = this->TargetError;
+  request.pointBudget = static_cast<std::uint64_t>(this->PointBudget);
+  request.gpuBytes = look.inHostMemory ? 0 : this->GPUMemoryBudget;
+  request.method = this->DetailSelection == VIEW_SPECIFIC
+    ? pointfront::DetailMethod::ViewSpecific
+    : pointfront::DetailMethod::RenderingFront;
   if (this->DetailSelection == VIEW_SPECIFIC) // it looks at every open store
   {
-    demand.overviewPoints =
+    request.overviewPoints =
       pointfront::overviewShare(static_cast<std::uint64_t>(this->OverviewPoints),
         static_cast<std::uint64_t>(this->GetStore()->GetNumberOfPoints()),
         static_cast<std::uint64_t>(vtkPointFrontStore::GetNumberOfPointsOfAllStores()));
   }
-  demand.interacting = IsInteracting(renderer);
-  demand.frameMs = this->TargetFrameTime;
-  demand.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
-  demand.complete = this->Complete && !demand.interacting;
+  request.interacting = IsInteracting(renderer);
+  request.frameMs = this->TargetFrameTime;
+  request.cloudMs = 1000.0 * actor->GetAllocatedRenderTime();
+  request.complete = this->Complete && !request.interacting;
   if (vtkRenderWindow* const window = renderer->GetRenderWindow())
   {
-    demand.aborted = [window] { return window->CheckAbortStatus() != 0; };
+    request.aborted = [window] { return window->CheckAbortStatus() != 0; };
   }
-  return demand;
+  return request;
 }
 
 /// Once a frame. True when it did.
@@ -201,9 +202,9 @@ bool vtkPointFrontMapper::MoveFront(
   view.Plan.reset(); // the nodes that it pins may be released
 
   const auto begin = Clock::now();
-  pointfront::FrameRequest demand = this->GetFrameRequest(renderer, actor, look);
-  view.Announced = view.Announced && view.View.request().view == demand.view;
-  const pointfront::FrontDelta& delta = view.View.update(std::move(demand));
+  pointfront::FrameRequest request = this->GetFrameRequest(renderer, actor, look);
+  view.Announced = view.Announced && view.View.request().view == request.view;
+  const pointfront::FrontDelta& delta = view.View.update(std::move(request));
   content.Statistics.take(delta);
   content.Statistics.frontMilliseconds = millisecondsSince(begin);
   for (const pointfront::Error& error : store->GetResidency().takeErrors())

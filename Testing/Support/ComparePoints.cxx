@@ -133,7 +133,7 @@ int main(int argc, char** argv)
     std::int32_t xyz[2][3];
     std::memcpy(xyz[0], at->data(), positionBytes);
     std::memcpy(xyz[1], other->data(), positionBytes);
-    fail("the sorted points differ at rank " + std::to_string(at - a.records.begin()) + ": (" +
+    fail("the sorted points differ at number " + std::to_string(at - a.records.begin()) + ": (" +
       std::to_string(xyz[0][0]) + ", " + std::to_string(xyz[0][1]) + ", " +
       std::to_string(xyz[0][2]) + ") against (" + std::to_string(xyz[1][0]) + ", " +
       std::to_string(xyz[1][1]) + ", " + std::to_string(xyz[1][2]) + ")");

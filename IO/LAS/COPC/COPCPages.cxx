@@ -15,7 +15,7 @@ constexpr std::size_t entriesOfOnePage = 2048; ///< a whole hierarchy of up to s
 constexpr int levelsOfPage = 5;
 constexpr std::size_t entriesWithin = 32; ///< trees of up to so many nodes stay in their page
 
-using Place = std::tuple<int, unsigned, unsigned, unsigned>;
+using Cell = std::tuple<int, unsigned, unsigned, unsigned>;
 
 /// One entry; a page's points are -1.
 struct Entry
@@ -27,10 +27,10 @@ struct Entry
 struct Pages
 {
   const std::vector<COPCNode>& nodes; ///< by level, then by cell
-  std::map<Place, std::size_t> places;
+  std::map<Cell, std::size_t> cells;
   std::vector<std::size_t> below; ///< nodes of the tree that begins at a node, itself too
 
-  static Place placeOf(const COPCNode& node)
+  static Cell cellOf(const COPCNode& node)
   {
     return { node.level, node.cell.x, node.cell.y, node.cell.z };
   }
@@ -41,12 +41,12 @@ struct Pages
   {
     for (std::size_t i = 0; i < nodes.size(); ++i)
     {
-      places[placeOf(nodes[i])] = i;
+      cells[cellOf(nodes[i])] = i;
     }
     for (std::size_t i = nodes.size(); i-- > 1;)
     {
       const glm::uvec3 up = nodes[i].cell / 2u;
-      below[places.at({ nodes[i].level - 1, up.x, up.y, up.z })] += below[i];
+      below[cells.at({ nodes[i].level - 1, up.x, up.y, up.z })] += below[i];
     }
   }
 
@@ -55,9 +55,9 @@ struct Pages
   {
     for (unsigned child = 0; child < 8; ++child)
     {
-      const auto found = places.find({ node.level + 1, 2 * node.cell.x + (child & 1),
+      const auto found = cells.find({ node.level + 1, 2 * node.cell.x + (child & 1),
         2 * node.cell.y + ((child >> 1) & 1), 2 * node.cell.z + (child >> 2) });
-      if (found != places.end())
+      if (found != cells.end())
       {
         each(found->second);
       }
@@ -96,7 +96,7 @@ COPCPages COPCPages::compose(std::vector<COPCNode> nodes, std::uint64_t offset)
     nodes.emplace_back();
   }
   std::sort(nodes.begin(), nodes.end(),
-    [](const COPCNode& a, const COPCNode& b) { return Pages::placeOf(a) < Pages::placeOf(b); });
+    [](const COPCNode& a, const COPCNode& b) { return Pages::cellOf(a) < Pages::cellOf(b); });
   const Pages tree(nodes);
   const bool whole = nodes.size() <= entriesOfOnePage;
 
@@ -133,7 +133,7 @@ COPCPages COPCPages::compose(std::vector<COPCNode> nodes, std::uint64_t offset)
         to + 28, entry.page ? std::int32_t{ -1 } : static_cast<std::int32_t>(node.points));
       if (entry.page)
       {
-        pending.push_back(tree.places.at(Pages::placeOf(node)));
+        pending.push_back(tree.cells.at(Pages::cellOf(node)));
         referredAt.push_back(static_cast<std::size_t>(to - result.bytes.data()));
       }
       to += entryBytes;

@@ -25,7 +25,7 @@ COPCRecords::COPCRecords(Options options)
   : options_(std::move(options))
 {
   // A sort merges its two halves through half as much memory again.
-  const std::size_t each = options_.recordBytes + sizeof(Place) + sizeof(Place) / 2;
+  const std::size_t each = options_.recordBytes + sizeof(Slot) + sizeof(Slot) / 2;
   std::uint64_t points = options_.memoryBytes / each;
   points = options_.expected > 0 ? std::min(points, options_.expected) : points;
   pointsInMemory_ = static_cast<std::size_t>(std::clamp<std::uint64_t>(
@@ -88,7 +88,7 @@ void COPCRecords::sortMemory(const COPCGrid& grid)
   const std::size_t width = options_.recordBytes;
   const std::size_t points = memory_.size() / width;
   order_.resize(points);
-  const auto less = [](const Place& a, const Place& b)
+  const auto less = [](const Slot& a, const Slot& b)
   { return a.key != b.key ? a.key < b.key : a.index < b.index; };
   const auto sortPart = [&](std::size_t first, std::size_t end)
   {
@@ -168,7 +168,7 @@ Result<void> COPCRecords::sort(const COPCGrid& grid, const Advance& advance)
   }
   // Assigning {} would keep what they have reserved.
   memory_ = std::vector<std::byte>();
-  order_ = std::vector<Place>();
+  order_ = std::vector<Slot>();
   for (std::size_t run = 0; run < runs_.size(); ++run)
   {
     if (auto done = push(run); !done)
@@ -231,7 +231,7 @@ Result<std::optional<COPCRecords::Record>> COPCRecords::next()
     {
       return std::optional<Record>();
     }
-    const Place& place = order_[nextInMemory_++];
+    const Slot& place = order_[nextInMemory_++];
     return std::optional<Record>(Record{ place.key, memory_.data() + place.index * width });
   }
   if (given_)

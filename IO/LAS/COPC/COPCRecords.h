@@ -54,7 +54,7 @@ public:
   std::size_t runs() const { return runs_.size(); } ///< 0: all are in memory
 
 private:
-  struct Place
+  struct Slot
   {
     std::uint64_t key;
     std::uint32_t index;
@@ -79,7 +79,7 @@ private:
   Options options_;
   std::size_t pointsInMemory_ = 0; ///< at most
   std::vector<std::byte> memory_;
-  std::vector<Place> order_;
+  std::vector<Slot> order_;
   std::size_t nextInMemory_ = 0;
   std::unique_ptr<SpillFile> file_; ///< all runs lie in it
   std::uint64_t fileBytes_ = 0;

@@ -65,7 +65,7 @@ public:
   }
 
   bool any() const { return at_ < end_; }
-  std::uint64_t rank() const { return at_; }
+  std::uint64_t position() const { return at_; }
   const std::byte* record() const { return bytes_.data() + (at_ % size) * width_; }
   std::uint64_t key() const { return keys_[at_ % size]; }
   /// Levels that the current record has in common with that `ahead` behind it; -1: none is there.
@@ -256,7 +256,7 @@ Result<void> COPCWriter::State::writeNodes(const COPCGrid& grid, COPCChunks& chu
     {
       break;
     }
-    const bool first = ahead.rank() == 0;
+    const bool first = ahead.position() == 0;
     const int differs = first ? 0 : COPCGrid::commonLevels(before, ahead.key()) + 1;
     before = ahead.key();
     const int level = levels.place(differs, ahead.commonLevels(COPCLevels::leafPoints),
@@ -273,7 +273,7 @@ Result<void> COPCWriter::State::writeNodes(const COPCGrid& grid, COPCChunks& chu
     {
       return done;
     }
-    if (!clock.report(ahead.rank()))
+    if (!clock.report(ahead.position()))
     {
       return cancelled();
     }

@@ -25,12 +25,12 @@ constexpr double secondsBetweenReports = 0.1;
 /// The places of a node's points, which ascend by number, in the prefix order.
 std::vector<std::uint32_t> prefixOrder(const std::vector<std::uint64_t>& points)
 {
-  std::vector<RankedHash> ranked(points.size());
+  std::vector<NumberedHash> hashes(points.size());
   for (std::uint32_t i = 0; i < points.size(); ++i)
   {
-    ranked[i] = { i, static_cast<std::uint32_t>(SampleStream::mixed(points[i]) >> 32) };
+    hashes[i] = { i, static_cast<std::uint32_t>(SampleStream::mixed(points[i]) >> 32) };
   }
-  return prefixBatches(std::move(ranked));
+  return prefixBatches(std::move(hashes));
 }
 
 /// Values of `stride` bytes in that order.
@@ -38,9 +38,9 @@ std::vector<std::byte> ordered(
   const std::byte* values, std::size_t stride, const std::vector<std::uint32_t>& order)
 {
   std::vector<std::byte> result(order.size() * stride);
-  for (std::size_t rank = 0; rank < order.size(); ++rank)
+  for (std::size_t i = 0; i < order.size(); ++i)
   {
-    std::memcpy(result.data() + rank * stride, values + order[rank] * stride, stride);
+    std::memcpy(result.data() + i * stride, values + order[i] * stride, stride);
   }
   return result;
 }

@@ -26,7 +26,7 @@ void place(
   }
 }
 
-/// Rank of each chunk's first point, and the number of points behind the last.
+/// Number of each chunk's first point, and the number of points behind the last.
 std::vector<std::uint64_t> firstPoints(const PointSource& source)
 {
   std::vector<std::uint64_t> first(source.chunkCount() + 1, 0);

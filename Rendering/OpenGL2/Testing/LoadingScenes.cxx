@@ -65,7 +65,7 @@ std::unique_ptr<LoadingClouds> cloudsOf(const LoadingScene& scene)
   for (std::size_t number = 0; number < clouds->size(); ++number)
   {
     clouds->view(number).growthStep = scene.growthStep;
-    clouds->view(number).demand.targetErrorPx = scene.errorPx;
+    clouds->view(number).frameRequest.targetErrorPx = scene.errorPx;
   }
   return clouds;
 }

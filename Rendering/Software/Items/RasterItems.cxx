@@ -160,7 +160,7 @@ RasterItem RasterItems::itemOf(const PlannedItem& planned)
   const bool own = style.orientation == SplatOrientation::Normal;
   item.normals = own ? columnOf(node, style.normalColumn) : nullptr;
   item.normalAttribute = item.normals ? &(*plan_.schema)[*style.normalColumn] : nullptr;
-  item.passes = passesOf(style, demandOf(item));
+  item.passes = passesOf(style, conditionsOf(item));
   const std::byte* const codes = columnOf(node, style.radiusColumn);
   item.radiusCodes = reinterpret_cast<const std::uint8_t*>(codes);
   const auto value = static_cast<float>(style.size.value) * radiusFactor_;
@@ -197,7 +197,7 @@ Thinning thinningOf(const PlanItem& item)
 }
 } // namespace
 
-PassConditions RasterItems::demandOf(const RasterItem& item) const
+PassConditions RasterItems::conditionsOf(const RasterItem& item) const
 {
   const bool oriented = item.normals || item.style->orientation == SplatOrientation::Fixed;
   const float spacingPx = std::max(plan_.spacingPx, item.item->growingSpacingPx);
@@ -207,7 +207,7 @@ PassConditions RasterItems::demandOf(const RasterItem& item) const
 RasterItem RasterItems::wallsOf(const RasterItem& item) const
 {
   RasterItem walls = item;
-  walls.passes = wallPassesOf(*item.style, demandOf(item));
+  walls.passes = wallPassesOf(*item.style, conditionsOf(item));
   walls.normals = nullptr;
   walls.heights = columnOf(item.node(), item.style->heightColumn);
   walls.heightAttribute = &(*plan_.schema)[*item.style->heightColumn];

@@ -137,7 +137,7 @@ private:
   /// The item that draws `planned`, without its place.
   RasterItem itemOf(const PlannedItem& planned);
   RasterItem wallsOf(const RasterItem& item) const;
-  PassConditions demandOf(const RasterItem& item) const;
+  PassConditions conditionsOf(const RasterItem& item) const;
   void append(RasterItem item);
   void setPlace(RasterItem& item) const;
   /// `reference` in camera space; `shift`: what depths of a parallel view count from.

@@ -83,20 +83,20 @@ void addRim(TechniquePasses& passes)
 
 /// How large what closes the surface is at least and at most, pixels.
 void boundRadius(
-  const ResolvedStyle& style, const PassConditions& demand, float share, SplatPass& pass)
+  const ResolvedStyle& style, const PassConditions& conditions, float share, SplatPass& pass)
 {
   if (style.size.mode != SplatSize::Mode::Spacing)
   {
     return;
   }
-  const float spacings = demand.thinning == Thinning::None ? 1.0f
-    : demand.thinning == Thinning::Even                    ? thinnedSpacings
-                                                           : randomSpacings;
+  const float spacings = conditions.thinning == Thinning::None ? 1.0f
+    : conditions.thinning == Thinning::Even                    ? thinnedSpacings
+                                                               : randomSpacings;
   const float closing =
-    share * demand.spacingPx * spacings * static_cast<float>(std::max(style.size.value, 0.0));
+    share * conditions.spacingPx * spacings * static_cast<float>(std::max(style.size.value, 0.0));
   pass.leastRadius = std::max(pass.leastRadius, closing);
   pass.mostRadius =
-    std::max(pass.leastRadius, SplatSize::mostOfHeight * static_cast<float>(demand.heightPx));
+    std::max(pass.leastRadius, SplatSize::mostOfHeight * static_cast<float>(conditions.heightPx));
 }
 
 } // namespace
@@ -111,9 +111,9 @@ int grownSquare(int size, float grown)
   return static_cast<int>(std::floor(static_cast<float>(size) * grown + 0.5f));
 }
 
-TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand)
+TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& conditions)
 {
-  const bool hasNormals = demand.hasNormals;
+  const bool hasNormals = conditions.hasNormals;
   TechniquePasses passes;
   const bool pixels = style.size.mode == SplatSize::Mode::Pixels;
   if (style.technique == Technique::Points && pixels)
@@ -149,7 +149,7 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& deman
       passes.first = discPass(0.0f);
       break;
   }
-  boundRadius(style, demand, passes.firstRadius, passes.first);
+  boundRadius(style, conditions, passes.firstRadius, passes.first);
   if (twice)
   {
     blend(passes, hasNormals ? 1.0f : 2.0f);
@@ -157,14 +157,14 @@ TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& deman
   return passes;
 }
 
-TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassConditions& demand)
+TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassConditions& conditions)
 {
   TechniquePasses passes;
   passes.firstRadius = shareOf(style);
   passes.first.shape = SplatShape::Wall;
-  passes.first.paraboloid = demand.hasNormals ? 1.0f : solidParaboloid;
+  passes.first.paraboloid = conditions.hasNormals ? 1.0f : solidParaboloid;
   passes.first.leastRadius = leastDisc;
-  boundRadius(style, demand, passes.firstRadius, passes.first);
+  boundRadius(style, conditions, passes.firstRadius, passes.first);
   return passes;
 }
 

@@ -47,9 +47,9 @@ int squareSizeOf(double pixels);
 int grownSquare(int size, float grown);
 
 /// Constants  as measured against ground truth: docs/adr/0016.
-TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& demand);
+TechniquePasses passesOf(const ResolvedStyle& style, const PassConditions& conditions);
 /// Solid: of the walls below the points.
-TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassConditions& demand);
+TechniquePasses wallPassesOf(const ResolvedStyle& style, const PassConditions& conditions);
 
 bool operator==(const TechniquePasses& a, const TechniquePasses& b);
 

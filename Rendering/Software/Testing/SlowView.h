@@ -102,12 +102,12 @@ public:
     {
       request_.styles.emplace_back();
       request_.styles.back().assign(layer.styles.begin(), layer.styles.end());
-      demand.columns.layers.push_back(layer.columns());
+      frameRequest.columns.layers.push_back(layer.columns());
       LayerLimits limits;
       limits.visible = layer.visible(); // or hidden nodes count as points of the complete view
       limits.errorFactor = layer.errorFactor;
       limits.share = layer.budgetShare;
-      demand.layers.push_back(limits);
+      frameRequest.layers.push_back(limits);
     }
     request_.shading = sheet.frameShading();
     const Bounds box = store->description().bounds;
@@ -138,13 +138,13 @@ public:
   /// The plan of the next frame alone.
   void planNext(bool complete = false)
   {
-    demand.view = View::fromMatrix(camera.storeToClip(), width, height);
-    demand.complete = complete;
+    frameRequest.view = View::fromMatrix(camera.storeToClip(), width, height);
+    frameRequest.complete = complete;
     disk_->grant(complete ? SlowStore::allNodes : nodesAFrame);
-    front_.update(demand);
+    front_.update(frameRequest);
     PlanRequest request = request_;
     request.camera = camera;
-    request.keepsVisible = leavesOut(front_.last(), demand);
+    request.keepsVisible = leavesOut(front_.last(), frameRequest);
     request.refines = refines;
     request.composited = composited;
     request.growth = growthStep > 0.0 ? &growth_ : nullptr;
@@ -172,7 +172,7 @@ public:
   bool composited = false; ///< likewise: it is one of several clouds
   double growthStep = 0.0; ///< seconds from a frame to the next; 0: nothing grows
   bool moving = false; ///< as GrowthMoment's
-  FrameRequest demand;
+  FrameRequest frameRequest;
   FrameCamera camera;
   FramePlan plan; ///< plan of the last frame
   SoftwareTarget target;

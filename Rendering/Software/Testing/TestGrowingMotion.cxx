@@ -34,7 +34,7 @@ struct TurningView : SlowView
     middle = 0.5 * (box.low + box.high);
     across = std::max(box.high.x - box.low.x, box.high.y - box.low.y);
     moving = true;
-    demand.targetErrorPx = 3.0;
+    frameRequest.targetErrorPx = 3.0;
   }
   void turn(int number)
   {

@@ -164,7 +164,7 @@ void expectCoveredAndAsAtOneGo(
   testing::Test::RecordProperty("blended_per_point", std::to_string(seen.blendedPerPoint()));
   testing::Test::RecordProperty("least_covered", std::to_string(covered));
   SlowView atOnce(means ? refiningMeans() : refiningTown(), refiningSheet(style));
-  atOnce.demand = view.demand;
+  atOnce.frameRequest = view.frameRequest;
   atOnce.frame(true);
   EXPECT_EQ(view.target.rgba, atOnce.target.rgba);
   EXPECT_EQ(view.target.depth, atOnce.target.depth);
@@ -193,8 +193,8 @@ TEST_P(RefiningView, OfViewSpecificDetailDrawsNothingTwice)
   ASSERT_TRUE(store);
   SlowView(store, refiningSheet(GetParam())).frame(true); // the table's rows are there then
   SlowView view(store, refiningSheet(GetParam()));
-  view.demand.method = DetailMethod::ViewSpecific;
-  view.demand.overviewPoints = townPoints / 20;
+  view.frameRequest.method = DetailMethod::ViewSpecific;
+  view.frameRequest.overviewPoints = townPoints / 20;
   const SeenFrames seen = refine(view);
   ASSERT_TRUE(view.isComplete());
   EXPECT_GE(seen.gained, 3);

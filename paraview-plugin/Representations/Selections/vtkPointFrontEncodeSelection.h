@@ -2,7 +2,7 @@
  * @class vtkPointFrontEncodeSelection
  * @brief what the view selected of a store becomes a selection of points by their global ids
  *
- * The mapper's hardware selection gives ranks in the store (vtkPointFrontMapper). ParaView takes
+ * The mapper's hardware selection gives ids of the store (vtkPointFrontMapper). ParaView takes
  * them for row numbers of the representation's input, on the process that drew them. They are
  * neither: most of them are in no overview, and any process can read them. Global ids say so, and
  * the reader's output carries them ("point_id"). Cells that are selected are points as well.

@@ -9,11 +9,12 @@
  * output lacks; so row numbers of the output keep their meaning. With several processes
  * each reads its share of the named points.
  *
- * Points are named by global ids, which are ranks in the store (vtkPointFrontEncodeSelection), by
- * values of "point_id", or by a frustum, in which they are ("Select Points Through"): an error if
- * that reaches into parts of the cloud with more than 50 million points. A query on values selects
- * among all points of the store: of comparisons joined by "&" those are read that may meet it, for
- * any other query all of them, 50 million on a process at most.
+ * Points are named by global ids, which are the points' numbers in the store
+ * (vtkPointFrontEncodeSelection), by values of "point_id", or by a frustum, in which they are
+ * ("Select Points Through"): an error if that reaches into parts of the cloud with more than 50
+ * million points. A query on values selects among all points of the store: of comparisons joined by
+ * "&" those are read that may meet it, for any other query all of them, 50 million on a process at
+ * most.
  */
 #ifndef vtkPointFrontExtractSelection_h
 #define vtkPointFrontExtractSelection_h

@@ -30,7 +30,7 @@ inline vtkPointFrontReader* upstreamReaderOf(vtkAlgorithm* consumer)
 }
 
 /// Whether a reader's store is one that a build shows meanwhile. The view goes on to later versions
-/// of it, in which points have other ranks.
+/// of it, in which points have other ids.
 inline bool isPreview(vtkPointFrontReader* reader)
 {
   return reader && reader->GetStore() && reader->GetStore()->IsPreview();

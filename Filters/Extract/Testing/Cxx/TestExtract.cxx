@@ -94,7 +94,7 @@ protected:
 fs::path Extract::folder;
 std::string Extract::store;
 
-TEST_F(Extract, GivesThePointsOfARegionWithTheirAttributesAndRanks)
+TEST_F(Extract, GivesThePointsOfARegionWithTheirAttributesAndIds)
 {
   const double infinity = std::numeric_limits<double>::infinity();
   filter->UseBoxOn();

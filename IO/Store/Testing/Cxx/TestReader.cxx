@@ -83,7 +83,7 @@ TEST(Reader, TheOverviewOfAllPointsIsTheCloud)
   EXPECT_STREQ(rgb->GetName(), "rgb");
   EXPECT_EQ(rgb->GetDataType(), VTK_UNSIGNED_CHAR);
   EXPECT_EQ(height->GetDataType(), VTK_DOUBLE);
-  std::set<vtkIdType> ranks;
+  std::set<vtkIdType> all;
   Random random(3);
   std::vector<glm::dvec3> input;
   for (int i = 0; i < 5000; ++i)
@@ -101,11 +101,11 @@ TEST(Reader, TheOverviewOfAllPointsIsTheCloud)
     EXPECT_DOUBLE_EQ(height->GetTuple1(i), 100.0 + 0.5 * static_cast<double>(index % 100));
     EXPECT_EQ(rgb->GetComponent(i, 0), static_cast<double>(index >> 8));
     EXPECT_EQ(rgb->GetComponent(i, 1), 128.0);
-    ranks.insert(static_cast<vtkIdType>(output->GetPointData()->GetGlobalIds()->GetTuple1(i)));
+    all.insert(static_cast<vtkIdType>(output->GetPointData()->GetGlobalIds()->GetTuple1(i)));
   }
-  EXPECT_EQ(ranks.size(), 5000u);
-  EXPECT_EQ(*ranks.begin(), 0);
-  EXPECT_EQ(*ranks.rbegin(), 4999);
+  EXPECT_EQ(all.size(), 5000u);
+  EXPECT_EQ(*all.begin(), 0);
+  EXPECT_EQ(*all.rbegin(), 4999);
   EXPECT_EQ(vtkPointFrontStore::GetStoreName(output), reader->GetStore()->GetFileName());
 }
 
@@ -181,9 +181,9 @@ std::set<vtkIdType> idsLikeIn(vtkPolyData* data, vtkPolyData* cloud)
   return ids;
 }
 
-TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
+TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirIds)
 {
-  const std::string store = storeOf("ranks", 20000);
+  const std::string store = storeOf("ids", 20000);
   vtkNew<vtkPointFrontReader> all;
   all->SetFileName(store.c_str());
   all->Update();
@@ -193,22 +193,22 @@ TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
   reader->Update();
   const std::set<vtkIdType> overview = idsLikeIn(reader->GetOutput(), all->GetOutput());
 
-  vtkNew<vtkIdTypeArray> ranks;
+  vtkNew<vtkIdTypeArray> named;
   std::set<vtkIdType> wanted;
-  for (vtkIdType rank = 19999; rank >= 0; rank -= 7)
+  for (vtkIdType id = 19999; id >= 0; id -= 7)
   {
-    ranks->InsertNextValue(rank);
-    if (overview.count(rank) == 0)
+    named->InsertNextValue(id);
+    if (overview.count(id) == 0)
     {
-      wanted.insert(rank);
+      wanted.insert(id);
     }
   }
-  ranks->InsertNextValue(19999); // twice
+  named->InsertNextValue(19999); // twice
   std::set<vtkIdType> found;
   for (int piece = 0; piece < 3; ++piece)
   {
     vtkNew<vtkPolyData> points;
-    ASSERT_TRUE(reader->ReadPoints(ranks, piece, 3, points));
+    ASSERT_TRUE(reader->ReadPoints(named, piece, 3, points));
     const double share = static_cast<double>(wanted.size()) / 3.0;
     EXPECT_NEAR(static_cast<double>(points->GetNumberOfPoints()), share, 1.0);
     EXPECT_EQ(points->GetNumberOfVerts(), points->GetNumberOfPoints());
@@ -218,35 +218,35 @@ TEST(Reader, PointsThatTheOverviewLacksAreReadByTheirRanks)
   EXPECT_EQ(found, wanted);
 }
 
-TEST(Reader, RanksThatTheStoreHasNotAreAnError)
+TEST(Reader, IdsThatTheStoreHasNotAreAnError)
 {
   vtkNew<vtkPointFrontReader> reader;
-  reader->SetFileName(storeOf("no_ranks", 20000).c_str());
+  reader->SetFileName(storeOf("no_ids", 20000).c_str());
   reader->Update();
-  for (const vtkIdType rank : { vtkIdType(-1), vtkIdType(20000), vtkIdType(VTK_ID_MAX) })
+  for (const vtkIdType id : { vtkIdType(-1), vtkIdType(20000), vtkIdType(VTK_ID_MAX) })
   {
-    vtkNew<vtkIdTypeArray> ranks;
-    ranks->InsertNextValue(7);
-    ranks->InsertNextValue(rank);
+    vtkNew<vtkIdTypeArray> named;
+    named->InsertNextValue(7);
+    named->InsertNextValue(id);
     vtkNew<vtkPolyData> points;
     vtkNew<ErrorObserver> errors;
     const auto tag = reader->AddObserver(vtkCommand::ErrorEvent, errors);
-    EXPECT_FALSE(reader->ReadPoints(ranks, 0, 1, points)) << rank;
-    EXPECT_NE(errors->GetErrorMessage().find("no point of the id"), std::string::npos) << rank;
+    EXPECT_FALSE(reader->ReadPoints(named, 0, 1, points)) << id;
+    EXPECT_NE(errors->GetErrorMessage().find("no point of the id"), std::string::npos) << id;
     reader->RemoveObserver(tag);
   }
 }
 
-TEST(Reader, ReadingPointsByRankCanBeAborted)
+TEST(Reader, ReadingPointsByIdCanBeAborted)
 {
   vtkNew<vtkPointFrontReader> reader;
-  reader->SetFileName(storeOf("abort_ranks", 20000).c_str());
+  reader->SetFileName(storeOf("abort_ids", 20000).c_str());
   reader->SetOverviewPoints(1);
   reader->Update();
-  vtkNew<vtkIdTypeArray> ranks;
-  for (vtkIdType rank = 0; rank < 20000; ++rank)
+  vtkNew<vtkIdTypeArray> named;
+  for (vtkIdType id = 0; id < 20000; ++id)
   {
-    ranks->InsertNextValue(rank);
+    named->InsertNextValue(id);
   }
   vtkNew<vtkPolyData> points;
   vtkNew<vtkCallbackCommand> stop;
@@ -255,10 +255,10 @@ TEST(Reader, ReadingPointsByRankCanBeAborted)
   const auto tag = reader->AddObserver(vtkCommand::ProgressEvent, stop);
   vtkNew<ErrorObserver> errors;
   reader->AddObserver(vtkCommand::ErrorEvent, errors);
-  EXPECT_FALSE(reader->ReadPoints(ranks, 0, 1, points));
+  EXPECT_FALSE(reader->ReadPoints(named, 0, 1, points));
   EXPECT_EQ(points->GetNumberOfPoints(), 0);
   reader->RemoveObserver(tag);
-  EXPECT_TRUE(reader->ReadPoints(ranks, 0, 1, points)); // the next one begins anew
+  EXPECT_TRUE(reader->ReadPoints(named, 0, 1, points)); // the next one begins anew
   EXPECT_GT(points->GetNumberOfPoints(), 10000);
 }
 
@@ -406,15 +406,15 @@ TEST(Reader, AListOfStoresIsOneCloud)
   ASSERT_NE(reader->GetStore(), nullptr);
   EXPECT_EQ(reader->GetStore()->GetNumberOfPoints(), 5000);
   ASSERT_EQ(reader->GetOutput()->GetNumberOfPoints(), 5000);
-  std::set<vtkIdType> ranks;
+  std::set<vtkIdType> all;
   auto* ids = vtkIdTypeArray::SafeDownCast(reader->GetOutput()->GetPointData()->GetGlobalIds());
   ASSERT_NE(ids, nullptr);
   for (vtkIdType i = 0; i < ids->GetNumberOfValues(); ++i)
   {
-    ranks.insert(ids->GetValue(i));
+    all.insert(ids->GetValue(i));
   }
-  EXPECT_EQ(ranks.size(), 5000u);
-  EXPECT_EQ(*ranks.rbegin(), 4999);
+  EXPECT_EQ(all.size(), 5000u);
+  EXPECT_EQ(*all.rbegin(), 4999);
 }
 
 } // namespace

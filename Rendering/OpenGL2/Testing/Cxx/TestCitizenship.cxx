@@ -60,11 +60,11 @@ TEST(Citizenship, ATransparentTableMakesTheActorTranslucent)
   EXPECT_TRUE(scene.actor->HasTranslucentPolygonalGeometry());
 }
 
-TEST(Citizenship, HardwareSelectionGivesTheRankInTheStore)
+TEST(Citizenship, HardwareSelectionGivesTheIdInTheStore)
 {
   Scene scene(planeStore("selected", 101, 20));
   scene.draw();
-  // The overview of all points has the ranks as global ids, in the same order.
+  // The overview of all points has the ids of the store as global ids, in the same order.
   scene.reader->SetOverviewPoints(1000000);
   scene.reader->Update();
   vtkPolyData* all = scene.reader->GetOutput();

@@ -62,7 +62,7 @@ struct NumberedSheet : Scene
   /// Number of the point that a selection finds in each pixel.
   std::vector<int> selected()
   {
-    auto* ranks = vtkIdTypeArray::SafeDownCast(all->GetPointData()->GetGlobalIds());
+    auto* ids = vtkIdTypeArray::SafeDownCast(all->GetPointData()->GetGlobalIds());
     vtkDataArray* colours = all->GetPointData()->GetArray("rgb");
     const int* size = window->GetSize();
     vtkNew<vtkHardwareSelector> selector;
@@ -82,7 +82,7 @@ struct NumberedSheet : Scene
           numbers.push_back(0);
           continue;
         }
-        const double* rgb = colours->GetTuple3(ranks->LookupValue(found.AttributeID));
+        const double* rgb = colours->GetTuple3(ids->LookupValue(found.AttributeID));
         numbers.push_back(static_cast<int>(rgb[0]) + 256 * static_cast<int>(rgb[1]));
       }
     }
@@ -108,7 +108,7 @@ struct NumberedSheet : Scene
     EXPECT_EQ(differ, 0) << what << ", of " << lit << " pixels";
   }
 
-  vtkNew<vtkPolyData> all; ///< the points with their ranks as global ids
+  vtkNew<vtkPolyData> all; ///< the points with their ids as global ids
 };
 
 TEST(Selection, FindsThePointOfEachPixel)

@@ -278,8 +278,8 @@ TEST(SoftwareBackend, SelectsThePointsThatItShows)
   reader->SetOverviewPoints(1000000);
   reader->Update();
   vtkPointData* all = reader->GetOutput()->GetPointData();
-  auto* ranks = vtkIdTypeArray::SafeDownCast(all->GetGlobalIds());
-  ASSERT_NE(ranks, nullptr);
+  auto* ids = vtkIdTypeArray::SafeDownCast(all->GetGlobalIds());
+  ASSERT_NE(ids, nullptr);
   for (const double sizePx : { 1.0, 4.0 })
   {
     scene.mapper->SetPointSize(sizePx);
@@ -306,7 +306,7 @@ TEST(SoftwareBackend, SelectsThePointsThatItShows)
     Places selected;
     for (vtkIdType i = 0; i < list->GetNumberOfValues(); ++i)
     {
-      const vtkIdType index = ranks->LookupValue(list->GetValue(i));
+      const vtkIdType index = ids->LookupValue(list->GetValue(i));
       ASSERT_GE(index, 0);
       const double* colour = all->GetArray("rgb")->GetTuple3(index);
       selected.insert({ static_cast<int>(colour[0]), static_cast<int>(colour[1]) });

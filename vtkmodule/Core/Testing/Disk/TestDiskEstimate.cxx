@@ -31,16 +31,16 @@ struct TwoDisks
   }
 };
 
-DiskEstimate demandOf(const char* spill, std::uint64_t spillBytes)
+DiskEstimate estimateOf(const char* spill, std::uint64_t spillBytes)
 {
   return { spill, spillBytes, "/a/out", 100 * mega, 250 * mega };
 }
 
 TEST(DiskEstimate, SpillAndStoreOnOneDiskNeedTheirSum)
 {
-  EXPECT_TRUE(checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega, 0 }));
+  EXPECT_TRUE(checkDiskSpace(estimateOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega, 0 }));
   const auto refused =
-    checkDiskSpace(demandOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega - 1, 0 });
+    checkDiskSpace(estimateOf("/a/tmp", 300 * mega), TwoDisks{ 400 * mega - 1, 0 });
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().kind, Error::Kind::Unwritable);
   for (const char* part : { "100 MiB, perhaps 250 MiB, in '/a/out'", "300 MiB in '/a/tmp'",
@@ -52,41 +52,41 @@ TEST(DiskEstimate, SpillAndStoreOnOneDiskNeedTheirSum)
 
 TEST(DiskEstimate, EachDiskIsAskedForItsShare)
 {
-  const DiskEstimate demand = demandOf("/b/tmp", 300 * mega);
-  EXPECT_TRUE(checkDiskSpace(demand, TwoDisks{ 100 * mega, 300 * mega }));
-  const auto noSpill = checkDiskSpace(demand, TwoDisks{ 1000 * mega, 299 * mega });
+  const DiskEstimate estimate = estimateOf("/b/tmp", 300 * mega);
+  EXPECT_TRUE(checkDiskSpace(estimate, TwoDisks{ 100 * mega, 300 * mega }));
+  const auto noSpill = checkDiskSpace(estimate, TwoDisks{ 1000 * mega, 299 * mega });
   ASSERT_FALSE(noSpill);
   EXPECT_NE(noSpill.error().what.find("299 MiB are free in '/b/tmp'"), std::string::npos);
-  const auto noStore = checkDiskSpace(demand, TwoDisks{ 99 * mega, 300 * mega });
+  const auto noStore = checkDiskSpace(estimate, TwoDisks{ 99 * mega, 300 * mega });
   ASSERT_FALSE(noStore);
   EXPECT_NE(noStore.error().what.find("99 MiB are free in '/a/out'"), std::string::npos);
 }
 
 TEST(DiskEstimate, WithoutSpillOnlyTheStoreCounts)
 {
-  EXPECT_TRUE(checkDiskSpace(demandOf("", 0), TwoDisks{ 100 * mega, 0 }));
-  EXPECT_FALSE(checkDiskSpace(demandOf("", 0), TwoDisks{ 99 * mega, 0 }));
+  EXPECT_TRUE(checkDiskSpace(estimateOf("", 0), TwoDisks{ 100 * mega, 0 }));
+  EXPECT_FALSE(checkDiskSpace(estimateOf("", 0), TwoDisks{ 99 * mega, 0 }));
 }
 
 TEST(DiskEstimate, WarnsWhereTheStoreMayNotFit)
 {
-  const DiskEstimate demand = demandOf("/a/tmp", 300 * mega);
-  EXPECT_EQ(diskSpaceWarning(demand, TwoDisks{ 550 * mega, 0 }), "");
-  const std::string told = diskSpaceWarning(demand, TwoDisks{ 550 * mega - 1, 0 });
+  const DiskEstimate estimate = estimateOf("/a/tmp", 300 * mega);
+  EXPECT_EQ(diskSpaceWarning(estimate, TwoDisks{ 550 * mega, 0 }), "");
+  const std::string told = diskSpaceWarning(estimate, TwoDisks{ 550 * mega - 1, 0 });
   for (const char* part : { "may not suffice", "perhaps 250 MiB", "550 MiB are free in '/a/tmp'" })
   {
     EXPECT_NE(told.find(part), std::string::npos) << told;
   }
-  EXPECT_EQ(diskSpaceWarning(demandOf("/b/tmp", 9 * mega), TwoDisks{ 250 * mega, 9 * mega }), "");
-  EXPECT_NE(diskSpaceWarning(demandOf("", 0), TwoDisks{ 249 * mega, 0 }), "");
+  EXPECT_EQ(diskSpaceWarning(estimateOf("/b/tmp", 9 * mega), TwoDisks{ 250 * mega, 9 * mega }), "");
+  EXPECT_NE(diskSpaceWarning(estimateOf("", 0), TwoDisks{ 249 * mega, 0 }), "");
 }
 
 TEST(DiskEstimate, EstimatesTheStoreFromBothSides)
 {
-  DiskEstimate demand;
-  estimateStore(demand, 1'000'000'000, 30);
-  EXPECT_EQ(demand.storeBytes, 5'000'000'000u);
-  EXPECT_EQ(demand.likelyStoreBytes, 15'000'000'000u);
+  DiskEstimate estimate;
+  estimateStore(estimate, 1'000'000'000, 30);
+  EXPECT_EQ(estimate.storeBytes, 5'000'000'000u);
+  EXPECT_EQ(estimate.likelyStoreBytes, 15'000'000'000u);
 }
 
 TEST(DiskEstimate, KnowsTheRealDisk)
@@ -99,10 +99,10 @@ TEST(DiskEstimate, KnowsTheRealDisk)
 
 TEST(DiskEstimate, AddsWhatIsNeededToErrorsOfWritingOnly)
 {
-  const DiskEstimate demand = demandOf("/b/tmp", 300 * mega);
-  const Error full = withDemand(makeError(Error::Kind::Unwritable, "disk full"), demand);
+  const DiskEstimate estimate = estimateOf("/b/tmp", 300 * mega);
+  const Error full = withEstimate(makeError(Error::Kind::Unwritable, "disk full"), estimate);
   EXPECT_NE(full.what.find("disk full (the store needs at least 100 MiB"), std::string::npos);
-  EXPECT_EQ(withDemand(makeError(Error::Kind::Cancelled, "stop"), demand).what, "stop");
+  EXPECT_EQ(withEstimate(makeError(Error::Kind::Cancelled, "stop"), estimate).what, "stop");
 }
 
 /// Runs `work` where no file may grow beyond `bytes`; its exit status.

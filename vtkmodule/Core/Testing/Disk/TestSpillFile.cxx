@@ -181,51 +181,51 @@ TEST(SpillFile, GoesPastTheCacheWhereFilesCan)
   fs::remove_all(folder);
 }
 
-BuildSize demandOf(std::uint64_t points, std::uint64_t memory)
+BuildSize buildSizeOf(std::uint64_t points, std::uint64_t memory)
 {
-  BuildSize demand;
-  demand.points = points;
-  demand.largestChunk = 50000;
-  demand.recordBytes = 20;
-  demand.sourceBytes = 8;
-  demand.nodePoints = 16384;
-  demand.threads = 4;
-  demand.memoryBytes = memory;
-  return demand;
+  BuildSize size;
+  size.points = points;
+  size.largestChunk = 50000;
+  size.recordBytes = 20;
+  size.sourceBytes = 8;
+  size.nodePoints = 16384;
+  size.threads = 4;
+  size.memoryBytes = memory;
+  return size;
 }
 
 TEST(BuildMemory, StaysInMemoryWhileItFits)
 {
-  const auto roomy = planMemory(demandOf(10000000, std::uint64_t(1) << 30));
+  const auto roomy = planMemory(buildSizeOf(10000000, std::uint64_t(1) << 30));
   ASSERT_TRUE(roomy);
   EXPECT_FALSE(roomy->spill);
   EXPECT_EQ(roomy->threads, 4u);
-  const auto tight = planMemory(demandOf(10000000, std::uint64_t(150) << 20));
+  const auto tight = planMemory(buildSizeOf(10000000, std::uint64_t(150) << 20));
   ASSERT_TRUE(tight);
   EXPECT_TRUE(tight->spill);
 }
 
 TEST(BuildMemory, GivesUpThreadsBeforeItGivesUp)
 {
-  const auto small = planMemory(demandOf(10000000, std::uint64_t(12) << 20));
+  const auto small = planMemory(buildSizeOf(10000000, std::uint64_t(12) << 20));
   ASSERT_TRUE(small);
   EXPECT_EQ(small->threads, 1u);
   EXPECT_GE(small->partPoints, 4u * 16384);
-  const auto none = planMemory(demandOf(10000000, std::uint64_t(1) << 20));
+  const auto none = planMemory(buildSizeOf(10000000, std::uint64_t(1) << 20));
   ASSERT_FALSE(none);
   EXPECT_EQ(none.error().kind, Error::Kind::NoMemory);
 }
 
 TEST(BuildMemory, ReadsAheadOnlyFromDiskAndOnlyOfWhatIsLeft)
 {
-  const auto inMemory = planMemory(demandOf(10000000, std::uint64_t(1) << 30));
+  const auto inMemory = planMemory(buildSizeOf(10000000, std::uint64_t(1) << 30));
   ASSERT_TRUE(inMemory);
   EXPECT_EQ(inMemory->partsAhead, 0u);
-  const auto roomy = planMemory(demandOf(100000000, std::uint64_t(1) << 30));
+  const auto roomy = planMemory(buildSizeOf(100000000, std::uint64_t(1) << 30));
   ASSERT_TRUE(roomy);
   ASSERT_TRUE(roomy->spill);
   EXPECT_GE(roomy->partsAhead, roomy->threads);
-  const auto least = planMemory(demandOf(10000000, std::uint64_t(12) << 20));
+  const auto least = planMemory(buildSizeOf(10000000, std::uint64_t(12) << 20));
   ASSERT_TRUE(least);
   const std::uint64_t parts = least->partsAhead * least->partPoints * 20;
   EXPECT_LE(parts, std::uint64_t(12) << 20);
@@ -233,7 +233,7 @@ TEST(BuildMemory, ReadsAheadOnlyFromDiskAndOnlyOfWhatIsLeft)
 
 TEST(BuildMemory, LargeInputsDoNotMeanLargeParts)
 {
-  const auto plan = planMemory(demandOf(std::uint64_t(1) << 40, std::uint64_t(64) << 30));
+  const auto plan = planMemory(buildSizeOf(std::uint64_t(1) << 40, std::uint64_t(64) << 30));
   ASSERT_TRUE(plan);
   EXPECT_TRUE(plan->spill);
   EXPECT_LE(plan->partPoints, 1u << 20);

@@ -55,12 +55,12 @@ bool expectThePlacesOfTheList(NeighbourCluster& cluster, const PositionSet& set,
 
 /// Each list of a cluster is, entry by entry, that of a search of its own.
 void expectTheListsOfTheIndex(
-  const PositionSet& set, const NeighbourSearch& demand, double size, const glm::dvec3& origin)
+  const PositionSet& set, const NeighbourSearch& search, double size, const glm::dvec3& origin)
 {
-  const KdIndex index(set, static_cast<int>(demand.axes));
-  NeighbourCluster cluster(set, index, demand);
-  NeighbourList expected(demand.neighbours);
-  NeighbourList list(demand.neighbours);
+  const KdIndex index(set, static_cast<int>(search.axes));
+  NeighbourCluster cluster(set, index, search);
+  NeighbourList expected(search.neighbours);
+  NeighbourList list(search.neighbours);
   std::mt19937_64 random(4);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
   for (int c = 0; c < 40; ++c)
@@ -78,14 +78,14 @@ void expectTheListsOfTheIndex(
       const glm::dvec3 from =
         part + partSize * glm::dvec3(uniform(random), uniform(random), uniform(random));
       expected.begin(set,
-        demand.neighbours > 0 ? std::numeric_limits<double>::infinity()
-                              : demand.radius * demand.radius);
+        search.neighbours > 0 ? std::numeric_limits<double>::infinity()
+                              : search.radius * search.radius);
       index.search(from, expected);
       cluster.search(from, list);
       auto a = expected.entries();
       auto b = list.entries();
       ASSERT_EQ(a.size(), b.size()) << origin.x << " " << size;
-      if (demand.neighbours == 0) // in any order
+      if (search.neighbours == 0) // in any order
       {
         const auto less = [](const NeighbourList::Entry& l, const NeighbourList::Entry& r)
         { return l.index < r.index; };

@@ -86,11 +86,11 @@ struct PlannerScene
     description.schema = schema;
     description.splatRadiusBase = 0.25;
     description.grid.scale = glm::dvec3(0.01);
-    demand.view =
+    frameRequest.view =
       View::perspective({ 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
     request.camera =
       FrameCamera::perspective({ 0, 0, 1000 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 1.0, 1e5, 1000, 1000);
-    demand.complete = true;
+    frameRequest.complete = true;
     request.styles = { flatStyle(), flatStyle(), flatStyle() };
   }
   static AttributeSchema oneColumn()
@@ -104,8 +104,8 @@ struct PlannerScene
   }
   FramePlan plan(double errorPx)
   {
-    demand.targetErrorPx = errorPx;
-    front.update(demand);
+    frameRequest.targetErrorPx = errorPx;
+    front.update(frameRequest);
     return planFrame(front, description, request);
   }
 
@@ -115,7 +115,7 @@ struct PlannerScene
   ViewFront front{ std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema,
     std::make_shared<WindowDemand>() };
   StoreDescription description;
-  FrameRequest demand;
+  FrameRequest frameRequest;
   PlanRequest request;
 };
 

@@ -76,7 +76,7 @@ TEST(FramePlanner, WhatGrowsAroundTheEyeIsNotLarge)
   scene.request.growth = &growth;
   scene.request.moment.duration = 0.2;
   scene.plan(1000.0);
-  scene.demand.view =
+  scene.frameRequest.view =
     View::perspective({ 0, 0, 0.5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 0.001, 1e5, 1000, 1000);
   scene.request.camera =
     FrameCamera::perspective({ 0, 0, 0.5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 0.001, 1e5, 1000, 1000);
@@ -108,7 +108,7 @@ TEST(FramePlanner, WhatATurnBringsIntoViewIsWhole)
   const auto look = [&](double x)
   {
     const glm::dvec3 eye(x, 0, 300), focus(x, 0, 0), up(0, 1, 0);
-    scene.demand.view = View::perspective(eye, focus, up, 0.3, 1.0, 1e5, 1000, 1000);
+    scene.frameRequest.view = View::perspective(eye, focus, up, 0.3, 1.0, 1e5, 1000, 1000);
     scene.request.camera = FrameCamera::perspective(eye, focus, up, 0.3, 1.0, 1e5, 1000, 1000);
     scene.request.moment.seconds += 0.02;
     return scene.plan(1.0);
@@ -159,7 +159,7 @@ TEST(FramePlanner, PiecesCloseTheSurfaceAsTheWholeDoes)
   Scene scene;
   for (const double errorPx : { 0.01, 5.0 })
   {
-    scene.demand.targetErrorPx = errorPx;
+    scene.frameRequest.targetErrorPx = errorPx;
     std::map<NodeIndex, PlanItem> wanted;
     for (const DrawBatch& batch : scene.plan(errorPx).batches)
     {
@@ -174,7 +174,7 @@ TEST(FramePlanner, PiecesCloseTheSurfaceAsTheWholeDoes)
     {
       ViewFront front(std::make_shared<HierarchyPiece>(scene.reader->table, number, 3), scene.share,
         scene.schema, std::make_shared<WindowDemand>());
-      front.update(scene.demand);
+      front.update(scene.frameRequest);
       for (const DrawBatch& batch : planFrame(front, scene.description, scene.request).batches)
       {
         for (const PlanItem& item : batch.items)
@@ -296,7 +296,7 @@ TEST(FramePlanner, NodesThatLackAColumnAreThereUntilTheyAreReadAgain)
   auto style = std::make_shared<ResolvedStyle>();
   style->colouring.kind = PointColouring::Kind::Table;
   scene.request.styles[0] = LayerStyles{ style };
-  scene.demand.columns = style->columns();
+  scene.frameRequest.columns = style->columns();
   ASSERT_EQ(style->columns(), ColumnSelection{ 0 });
   // Before the next update, as a frame in the middle of the re-reading sees it.
   const FramePlan before = planFrame(scene.front, scene.description, scene.request);
@@ -311,7 +311,7 @@ TEST(FramePlanner, NodesThatLackAColumnAreThereUntilTheyAreReadAgain)
 TEST(FramePlanner, EachLayerIsReadWithTheColumnsOfItsStyle)
 {
   Scene scene;
-  scene.demand.columns.layers = { { 0 }, {}, { 0 } };
+  scene.frameRequest.columns.layers = { { 0 }, {}, { 0 } };
   const auto selections = [&]
   {
     std::vector<ColumnSelection> found(3);
@@ -328,7 +328,7 @@ TEST(FramePlanner, EachLayerIsReadWithTheColumnsOfItsStyle)
   EXPECT_EQ(selections(), (std::vector<ColumnSelection>{ { 0 }, {}, { 0 } }));
   EXPECT_EQ(scene.reader->reads, 6) << "each node once, with what its style reads";
   // Another style of layer 1: its two nodes are read again, and nothing else is.
-  scene.demand.columns.layers = { { 0 }, { 0 }, { 0 } };
+  scene.frameRequest.columns.layers = { { 0 }, { 0 }, { 0 } };
   EXPECT_EQ(selections(), (std::vector<ColumnSelection>{ { 0 }, { 0 }, { 0 } }));
   EXPECT_EQ(scene.reader->reads, 8);
 }

@@ -11,7 +11,7 @@ using namespace pointfront;
 TEST(SplatFill, AThresholdAroundTheEyeMakesNoPointLarge)
 {
   test::PlannerScene scene;
-  scene.demand.view =
+  scene.frameRequest.view =
     View::perspective({ 0, 0, 0.5 }, { 0, 0, 0 }, { 0, 1, 0 }, 0.9, 0.001, 1e5, 1000, 1000);
   scene.request.camera.width = 1000;
   scene.request.camera.height = 1000;

@@ -38,35 +38,35 @@ TEST(ColumnSource, EveryChunkHasItsOwnPointsAndLeavesOutWhatLiesBetweenTwoValues
 {
   constexpr std::uint64_t points = 70000; // more than a chunk
   std::vector<std::uint8_t> colours;
-  std::vector<std::uint32_t> ranks;
+  std::vector<std::uint32_t> numbers;
   for (std::uint32_t i = 0; i < points; ++i)
   {
-    ranks.push_back(i);
+    numbers.push_back(i);
     for (const unsigned channel : { i, i / 256, i / 65536, 77u })
     {
       colours.push_back(static_cast<std::uint8_t>(channel));
     }
   }
   CountedPoints source(points);
-  ASSERT_TRUE(source.add(attributeOf("rank", ScalarType::UInt32, 1), ranks.data(), 4));
+  ASSERT_TRUE(source.add(attributeOf("number", ScalarType::UInt32, 1), numbers.data(), 4));
   ASSERT_TRUE(source.add(attributeOf("rgb", ScalarType::UInt8, 3), colours.data(), 4));
   ASSERT_EQ(source.chunkCount(), 2u);
-  std::uint32_t rank = 0;
+  std::uint32_t number = 0;
   for (std::uint64_t chunk = 0; chunk < source.chunkCount(); ++chunk)
   {
     PointBatch batch;
     ASSERT_TRUE(source.read(chunk, batch));
     ASSERT_EQ(batch.size(), source.chunkPoints(chunk));
-    for (std::size_t i = 0; i < batch.size(); ++i, ++rank)
+    for (std::size_t i = 0; i < batch.size(); ++i, ++number)
     {
       std::uint32_t stored = 0;
       std::memcpy(&stored, batch.columns[0].data() + 4 * i, 4);
-      ASSERT_EQ(stored, rank);
-      ASSERT_EQ(std::memcmp(batch.columns[1].data() + 3 * i, colours.data() + 4 * rank, 3), 0);
-      ASSERT_EQ(batch.positions[i], glm::dvec3(rank, 0.0, -double(rank)));
+      ASSERT_EQ(stored, number);
+      ASSERT_EQ(std::memcmp(batch.columns[1].data() + 3 * i, colours.data() + 4 * number, 3), 0);
+      ASSERT_EQ(batch.positions[i], glm::dvec3(number, 0.0, -double(number)));
     }
   }
-  EXPECT_EQ(rank, points);
+  EXPECT_EQ(number, points);
 }
 
 TEST(ColumnSource, TheSecondAttributeOfANameIsRefused)

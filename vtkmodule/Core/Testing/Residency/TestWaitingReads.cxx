@@ -28,13 +28,13 @@ struct Waiting
     , reads(reader, budget)
   {
   }
-  /// Node and rank of what is read next, until nothing is left.
+  /// Node and turn of what is read next, until nothing is left.
   std::vector<std::pair<NodeIndex, int>> order()
   {
     std::vector<std::pair<NodeIndex, int>> all;
     while (const auto choice = reads.choose(cache, false))
     {
-      all.emplace_back(choice->request.node, choice->rank);
+      all.emplace_back(choice->request.node, choice->turn);
       reads.take(*choice);
     }
     return all;

@@ -37,11 +37,11 @@ void expectSample(const std::string& path, const SampleStore& sample, std::uint3
   ASSERT_EQ(store.description().schema, sample.description.schema);
   ASSERT_EQ(store.description().grid, sample.description.grid);
   ASSERT_EQ(store.hierarchy()->nodeCount(), sample.nodes.size());
-  std::uint64_t rank = 0;
+  std::uint64_t number = 0;
   for (NodeIndex i = 0; i < sample.nodes.size(); ++i)
   {
-    ASSERT_EQ(store.hierarchy()->node(i).firstPoint, rank);
-    rank += sample.nodes[i].pointCount;
+    ASSERT_EQ(store.hierarchy()->node(i).firstPoint, number);
+    number += sample.nodes[i].pointCount;
     const auto points = store.read(i, everyColumn(sample.description.schema));
     ASSERT_TRUE(points) << points.error().what;
     ASSERT_EQ(points->splatRadius, version < 3 ? 0.0f : sample.nodes[i].splatRadius);

@@ -62,7 +62,7 @@ protected:
     return at("all.pfronts");
   }
 
-  /// Every point of the query by its id; ranks must be told apart and ascend.
+  /// Every point of the query by its id; ids must differ and ascend.
   std::map<std::uint32_t, glm::dvec3> points(
     const StoredCloud& cloud, const PointQuery& query = {}) const
   {
@@ -220,7 +220,7 @@ TEST_F(Tiled, HeadsOfRootsAreEnoughFromAfar)
     ASSERT_EQ(head->size(), row.pointCount);
     EXPECT_LE(head->bytes(), sizeof(NodeColumns) + 256 * 16 + 64);
   }
-  // Ids are those of the uncut cloud: by rank, in the same order.
+  // Ids are those of the uncut cloud: by number, in the same order.
   std::vector<std::uint32_t> ids[2];
   for (int k = 0; k < 2; ++k)
   {

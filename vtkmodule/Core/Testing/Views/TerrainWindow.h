@@ -24,10 +24,10 @@ inline View overview()
 /// 13.6 million points, all of which the view wants.
 inline FrameRequest everything()
 {
-  FrameRequest demand;
-  demand.view = overview();
-  demand.targetErrorPx = 0.01;
-  return demand;
+  FrameRequest request;
+  request.view = overview();
+  request.targetErrorPx = 0.01;
+  return request;
 }
 
 /// A cloud in a window whose machine takes the same for each point.
@@ -40,9 +40,9 @@ struct TerrainCloud
     , front(std::make_shared<HierarchyPiece>(reader->table, 0, 1), share, schema, window)
   {
   }
-  void frame(const FrameRequest& demand)
+  void frame(const FrameRequest& request)
   {
-    const FrontDelta& delta = front.update(demand);
+    const FrontDelta& delta = front.update(request);
     front.recordFrame(
       delta.pointsDrawn, delta.moves, millisecondsPerPoint * double(delta.pointsDrawn));
   }

@@ -96,13 +96,13 @@ TEST(ViewFront, AtRestItHasWhatASmallMotionShows)
   {
     TerrainCloud cloud(
       std::make_shared<LoadScheduler>(LoadSchedulerOptions()), std::make_shared<WindowDemand>());
-    FrameRequest demand;
-    demand.view = above(middle, middle);
-    demand.complete = still;
+    FrameRequest request;
+    request.view = above(middle, middle);
+    request.complete = still;
     const Residency& residency = cloud.share.residency();
     do
     {
-      cloud.frame(demand);
+      cloud.frame(request);
       residency.waitUntilIdle();
       std::this_thread::sleep_for(milliseconds(1));
     } while (cloud.front.wantsUpdate());
@@ -116,10 +116,10 @@ TEST(ViewFront, AtRestItHasWhatASmallMotionShows)
     for (const auto& [right, up] :
       { std::pair(0.1, 0.0), std::pair(-0.1, 0.0), std::pair(0.0, 0.07), std::pair(0.07, -0.07) })
     {
-      demand.view = above(middle + right * width, middle + up * width);
-      demand.interacting = true;
-      demand.complete = false;
-      cloud.frame(demand);
+      request.view = above(middle + right * width, middle + up * width);
+      request.interacting = true;
+      request.complete = false;
+      cloud.frame(request);
       missing += static_cast<std::size_t>(std::count_if(cloud.front.last().requests.begin(),
         cloud.front.last().requests.end(), [](const LoadRequest& r) { return !r.optional; }));
     }
@@ -146,12 +146,12 @@ TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
   const auto scheduler = std::make_shared<LoadScheduler>(options);
   TerrainCloud cloud(scheduler, std::make_shared<WindowDemand>());
   cloud.reader->pages->open(false);
-  FrameRequest demand = everything();
+  FrameRequest request = everything();
   for (int frame = 0; frame < 60; ++frame)
   {
-    demand.interacting = frame % 2 == 0;
-    demand.view.position.z -= 10.0; // so that the margin ahead looks, too
-    cloud.frame(demand);
+    request.interacting = frame % 2 == 0;
+    request.view.position.z -= 10.0; // so that the margin ahead looks, too
+    cloud.frame(request);
     EXPECT_GT(cloud.drawn(), 0u) << "of the root at least";
     EXPECT_LE(cloud.drawn(), nodePageRows * Terrain::pointsOfNode);
     cloud.front.wantsUpdate();
@@ -162,9 +162,9 @@ TEST(ViewFront, AFrameDoesNotWaitForAPageOfTheTable)
   EXPECT_TRUE(cloud.front.last().rowsComing);
   EXPECT_FALSE(cloud.front.wantsUpdate()) << "nothing arrived: no busy loop";
   cloud.reader->pages->open(true);
-  demand.interacting = false;
-  demand.complete = true;
-  cloud.frame(demand);
+  request.interacting = false;
+  request.complete = true;
+  cloud.frame(request);
   EXPECT_TRUE(cloud.front.last().complete);
   EXPECT_GT(cloud.drawn(), wholeTerrain / 2);
 }
@@ -178,9 +178,9 @@ TEST(ViewFront, ACompleteFrameEndsWhenItIsAborted)
     options.overdueAfter = milliseconds(30);
     const auto scheduler = std::make_shared<LoadScheduler>(options);
     TerrainCloud cloud(scheduler, std::make_shared<WindowDemand>());
-    FrameRequest demand = everything();
-    demand.targetErrorPx = 1000.0;
-    cloud.frame(demand); // the root
+    FrameRequest request = everything();
+    request.targetErrorPx = 1000.0;
+    cloud.frame(request); // the root
     if (rows)
     {
       cloud.reader->pages->open(false);
@@ -189,18 +189,18 @@ TEST(ViewFront, ACompleteFrameEndsWhenItIsAborted)
     {
       cloud.reader->nodes.open(false);
     }
-    demand.targetErrorPx = 0.01;
-    demand.complete = true;
+    request.targetErrorPx = 0.01;
+    request.complete = true;
     int asked = 0;
-    demand.aborted = [&asked] { return ++asked > 3; };
-    cloud.frame(demand);
+    request.aborted = [&asked] { return ++asked > 3; };
+    cloud.frame(request);
     EXPECT_EQ(asked, 4) << rows;
     EXPECT_FALSE(cloud.front.last().complete) << rows;
     EXPECT_GT(cloud.drawn(), 0u) << "what is there is drawn";
     cloud.reader->pages->open(true);
     cloud.reader->nodes.open(true);
-    demand.aborted = nullptr;
-    cloud.frame(demand);
+    request.aborted = nullptr;
+    cloud.frame(request);
     EXPECT_TRUE(cloud.front.last().complete) << rows;
   }
 }

@@ -25,36 +25,36 @@ std::string folderOf(const std::string& path)
   return folder.empty() ? "." : folder;
 }
 
-BuildSize demandOf(
+BuildSize buildSizeOf(
   const Sources& sources, const AttributeSchema& pooled, const BuildOptions& options)
 {
-  BuildSize demand;
+  BuildSize size;
   for (const auto& source : sources)
   {
     for (std::uint64_t chunk = 0; chunk < source->chunkCount(); ++chunk)
     {
-      demand.points += source->chunkPoints(chunk);
-      demand.largestChunk = std::max(demand.largestChunk, source->chunkPoints(chunk));
+      size.points += source->chunkPoints(chunk);
+      size.largestChunk = std::max(size.largestChunk, source->chunkPoints(chunk));
     }
-    demand.sourceBytes = std::max(demand.sourceBytes, source->description().schema.pointBytes());
+    size.sourceBytes = std::max(size.sourceBytes, source->description().schema.pointBytes());
   }
-  demand.recordBytes = RecordLayout(pooled).bytes();
-  demand.partBytes = constructionBytes(options, pooled);
-  demand.blockBytes = constructionBlockBytes(options);
-  demand.tableBytes = constructionTableBytes(options, demand.points);
-  demand.wholePart = constructionPart(options);
-  demand.nodePoints = options.nodePoints;
-  demand.threads = threadsOr(options.threads);
-  demand.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 2;
-  return demand;
+  size.recordBytes = RecordLayout(pooled).bytes();
+  size.partBytes = constructionBytes(options, pooled);
+  size.blockBytes = constructionBlockBytes(options);
+  size.tableBytes = constructionTableBytes(options, size.points);
+  size.wholePart = constructionPart(options);
+  size.nodePoints = options.nodePoints;
+  size.threads = threadsOr(options.threads);
+  size.memoryBytes = options.memoryBytes > 0 ? options.memoryBytes : machineMemory() / 2;
+  return size;
 }
 } // namespace
 
 Result<BuildStorage> reserveStorage(
   const Sources& sources, const AttributeSchema& pooled, const BuildOptions& options)
 {
-  const BuildSize demand = demandOf(sources, pooled, options);
-  const auto plan = planMemory(demand);
+  const BuildSize size = buildSizeOf(sources, pooled, options);
+  const auto plan = planMemory(size);
   if (!plan)
   {
     return plan.error();
@@ -63,9 +63,9 @@ Result<BuildStorage> reserveStorage(
   storage.plan = *plan;
   DiskEstimate& disk = storage.disk;
   disk.outputFolder = folderOf(options.outputPath);
-  estimateStore(disk, demand.points, demand.recordBytes);
+  estimateStore(disk, size.points, size.recordBytes);
   disk.spillFolder = options.temporaryFolder.empty() ? disk.outputFolder : options.temporaryFolder;
-  disk.spillBytes = plan->spill ? demand.points * demand.recordBytes : 0;
+  disk.spillBytes = plan->spill ? size.points * size.recordBytes : 0;
   if (Result<void> enough = checkDiskSpace(disk); !enough)
   {
     return enough.error();
@@ -73,10 +73,10 @@ Result<BuildStorage> reserveStorage(
   storage.diskWarning = diskSpaceWarning(disk);
   if (!plan->spill)
   {
-    storage.pool = RecordPool::inMemory(demand.points, demand.recordBytes);
+    storage.pool = RecordPool::inMemory(size.points, size.recordBytes);
     return storage;
   }
-  auto spilled = RecordPool::spilled(disk.spillFolder, demand.points, demand.recordBytes);
+  auto spilled = RecordPool::spilled(disk.spillFolder, size.points, size.recordBytes);
   if (!spilled)
   {
     return spilled.error();

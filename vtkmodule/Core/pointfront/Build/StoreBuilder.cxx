@@ -217,7 +217,7 @@ Result<BuildReport> StoreBuild::run()
   {
     if (Result<void> done = (this->*step)(); !done)
     {
-      return withDemand(done.error(), storage_.disk);
+      return withEstimate(done.error(), storage_.disk);
     }
   }
   if (missing_ > 0)

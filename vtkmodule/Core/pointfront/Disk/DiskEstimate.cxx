@@ -17,14 +17,14 @@ const char advice[] = "; free some space, choose another folder for temporary fi
                       "allow more memory (--memory) so that less is spilled, or write to "
                       "another disk";
 
-std::string needsText(const DiskEstimate& demand)
+std::string needsText(const DiskEstimate& estimate)
 {
-  std::string text = "the store needs at least " + mebibytes(demand.storeBytes) + ", perhaps " +
-    mebibytes(demand.likelyStoreBytes) + ", in '" + demand.outputFolder + "'";
-  if (demand.spillBytes > 0)
+  std::string text = "the store needs at least " + mebibytes(estimate.storeBytes) + ", perhaps " +
+    mebibytes(estimate.likelyStoreBytes) + ", in '" + estimate.outputFolder + "'";
+  if (estimate.spillBytes > 0)
   {
-    text += " and the points that do not fit in memory need " + mebibytes(demand.spillBytes) +
-      " in '" + demand.spillFolder + "'";
+    text += " and the points that do not fit in memory need " + mebibytes(estimate.spillBytes) +
+      " in '" + estimate.spillFolder + "'";
   }
   return text;
 }
@@ -37,17 +37,17 @@ struct Shortage
 };
 
 /// Where `storeBytes` and the spill do not fit. On one disk they need their sum.
-std::optional<Shortage> shortageOf(const DiskEstimate& demand, std::uint64_t storeBytes,
+std::optional<Shortage> shortageOf(const DiskEstimate& estimate, std::uint64_t storeBytes,
   const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
-  const DiskSpace output = spaceOf(demand.outputFolder);
-  if (demand.spillBytes > 0)
+  const DiskSpace output = spaceOf(estimate.outputFolder);
+  if (estimate.spillBytes > 0)
   {
-    const DiskSpace spill = spaceOf(demand.spillFolder);
+    const DiskSpace spill = spaceOf(estimate.spillFolder);
     const bool shared = spill.device == output.device;
-    if (spill.freeBytes < demand.spillBytes + (shared ? storeBytes : 0))
+    if (spill.freeBytes < estimate.spillBytes + (shared ? storeBytes : 0))
     {
-      return Shortage{ demand.spillFolder, spill.freeBytes };
+      return Shortage{ estimate.spillFolder, spill.freeBytes };
     }
     if (shared)
     {
@@ -56,14 +56,14 @@ std::optional<Shortage> shortageOf(const DiskEstimate& demand, std::uint64_t sto
   }
   if (output.freeBytes < storeBytes)
   {
-    return Shortage{ demand.outputFolder, output.freeBytes };
+    return Shortage{ estimate.outputFolder, output.freeBytes };
   }
   return std::nullopt;
 }
 
-std::string shortageText(const DiskEstimate& demand, const Shortage& shortage)
+std::string shortageText(const DiskEstimate& estimate, const Shortage& shortage)
 {
-  return needsText(demand) + ", but only " + mebibytes(shortage.freeBytes) + " are free in '" +
+  return needsText(estimate) + ", but only " + mebibytes(shortage.freeBytes) + " are free in '" +
     shortage.folder + "'" + advice;
 }
 } // namespace
@@ -93,35 +93,35 @@ DiskSpace diskSpaceOf(const std::string& folder)
   return space;
 }
 
-void estimateStore(DiskEstimate& demand, std::uint64_t points, std::size_t recordBytes)
+void estimateStore(DiskEstimate& estimate, std::uint64_t points, std::size_t recordBytes)
 {
-  demand.storeBytes = points * recordBytes / leastShareOfRecords;
-  demand.likelyStoreBytes = points * recordBytes / likelyShareOfRecords;
+  estimate.storeBytes = points * recordBytes / leastShareOfRecords;
+  estimate.likelyStoreBytes = points * recordBytes / likelyShareOfRecords;
 }
 
 Result<void> checkDiskSpace(
-  const DiskEstimate& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+  const DiskEstimate& estimate, const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
-  if (const auto shortage = shortageOf(demand, demand.storeBytes, spaceOf))
+  if (const auto shortage = shortageOf(estimate, estimate.storeBytes, spaceOf))
   {
     return makeError(
-      Error::Kind::Unwritable, "not enough disk space: " + shortageText(demand, *shortage));
+      Error::Kind::Unwritable, "not enough disk space: " + shortageText(estimate, *shortage));
   }
   return {};
 }
 
 std::string diskSpaceWarning(
-  const DiskEstimate& demand, const std::function<DiskSpace(const std::string&)>& spaceOf)
+  const DiskEstimate& estimate, const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
-  const auto shortage = shortageOf(demand, demand.likelyStoreBytes, spaceOf);
-  return shortage ? "Disk space may not suffice: " + shortageText(demand, *shortage) + "." : "";
+  const auto shortage = shortageOf(estimate, estimate.likelyStoreBytes, spaceOf);
+  return shortage ? "Disk space may not suffice: " + shortageText(estimate, *shortage) + "." : "";
 }
 
-Error withDemand(Error error, const DiskEstimate& demand)
+Error withEstimate(Error error, const DiskEstimate& estimate)
 {
   if (error.kind == Error::Kind::Unwritable)
   {
-    error.what += " (" + needsText(demand) + ")";
+    error.what += " (" + needsText(estimate) + ")";
   }
   return error;
 }

@@ -33,20 +33,20 @@ struct DiskEstimate
 
 /// Fills in what a store of so many points takes. `recordBytes` is a point with all attributes,
 /// uncompressed.
-void estimateStore(DiskEstimate& demand, std::uint64_t points, std::size_t recordBytes);
+void estimateStore(DiskEstimate& estimate, std::uint64_t points, std::size_t recordBytes);
 
 /// Unwritable when a disk has too little: how much is needed, where, what is free, what to do.
 /// Spill and store that share a disk need their sum there.
-Result<void> checkDiskSpace(const DiskEstimate& demand,
+Result<void> checkDiskSpace(const DiskEstimate& estimate,
   const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
 
 /// A sentence for the user when checkDiskSpace() has nothing to say, but the store might still not
 /// fit; empty when all is well.
-std::string diskSpaceWarning(const DiskEstimate& demand,
+std::string diskSpaceWarning(const DiskEstimate& estimate,
   const std::function<DiskSpace(const std::string&)>& spaceOf = diskSpaceOf);
 
 /// An Error of writing with what the build needs in all, when the disk was the reason.
-Error withDemand(Error error, const DiskEstimate& demand);
+Error withEstimate(Error error, const DiskEstimate& estimate);
 
 /// ENOSPC, EDQUOT, EFBIG, EIO: what `errno` is when a disk, a quota, a limit or a device ends.
 bool isDiskFault(int systemError);

@@ -67,13 +67,13 @@ std::vector<std::uint32_t> fairOrder(
       return static_cast<std::uint32_t>(spread(std::uint64_t(p.x) >> shift) |
         spread(std::uint64_t(p.y) >> shift) << 1 | spread(std::uint64_t(p.z) >> shift) << 2);
     });
-  std::vector<RankedHash> ranked;
-  ranked.reserve(steps.size());
+  std::vector<NumberedHash> hashes;
+  hashes.reserve(steps.size());
   for (const std::uint32_t point : sortedByKey(along))
   {
-    ranked.push_back({ point, static_cast<std::uint32_t>(SampleStream::mixed(point) >> 32) });
+    hashes.push_back({ point, static_cast<std::uint32_t>(SampleStream::mixed(point) >> 32) });
   }
-  return prefixBatches(std::move(ranked));
+  return prefixBatches(std::move(hashes));
 }
 
 } // namespace pointfront

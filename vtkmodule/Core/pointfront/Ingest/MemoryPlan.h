@@ -36,6 +36,6 @@ struct MemoryPlan
 };
 
 /// Error NoMemory, with the least that would do, when even one thread has too little.
-Result<MemoryPlan> planMemory(const BuildSize& demand);
+Result<MemoryPlan> planMemory(const BuildSize& size);
 
 } // namespace pointfront

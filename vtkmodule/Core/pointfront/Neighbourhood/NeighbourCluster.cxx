@@ -176,12 +176,12 @@ bool NeighbourCluster::searchBall(
 void NeighbourCluster::chooseNearest(
   const PlaceBall& ball, const glm::dvec3& from, NeighbourList& list)
 {
-  selection_.rank();
+  selection_.sort();
   chosen_.clear();
   float cut = PlaceSelection::everything;
   for (std::size_t i = 0; i < selection_.size(); ++i)
   {
-    const std::uint32_t next = selection_.ranked(i);
+    const std::uint32_t next = selection_.nth(i);
     if (selection_.distances().squared[next] > cut)
     {
       break;
@@ -208,7 +208,7 @@ void NeighbourCluster::chooseNearest(
     if (chosen_.size() == search_.neighbours) // none farther than these can be among them
     {
       cut =
-        safely(chosen_.back().squaredDistance, ball.extent) * (1.0f + PlaceSelection::rankError);
+        safely(chosen_.back().squaredDistance, ball.extent) * (1.0f + PlaceSelection::orderError);
     }
   }
   list.assign(chosen_);

@@ -14,9 +14,9 @@ namespace
 {
 /// To find a limit with the number of places that is wanted; ties have none.
 constexpr int mostSteps = 10;
-/// The time of ranking by counting grows with the square.
+/// The time of sorting by counting grows with the square.
 constexpr std::size_t mostCounted = 64;
-/// In the place of a float's last bits: its number among those ranked. So no two are equal.
+/// In the place of a float's last bits: its number among those sorted. So no two are equal.
 constexpr std::int32_t numberBits = 0x3f;
 
 std::size_t padded(std::size_t count)
@@ -92,7 +92,7 @@ void PlaceSelection::select(float limit)
   distances_.close(count);
 }
 
-/// Each one's rank is counted, as in rank().
+/// Those before each are counted, as in sort().
 std::optional<PlaceSelection::Gap> PlaceSelection::keepNearest(std::size_t wanted)
 {
   const std::size_t count = size();
@@ -189,9 +189,9 @@ std::size_t PlaceSelection::countWithin(const Distances& distances, float limit)
   return static_cast<std::size_t>(all);
 }
 
-/// Each one's rank is counted: for the twenty there usually are that is faster than a sort, as
+/// Those before each are counted: for the twenty there usually are that is faster than a sort, as
 /// nothing in it depends on a comparison.
-void PlaceSelection::rank()
+void PlaceSelection::sort()
 {
   const std::size_t count = size();
   const float* const squared = distances_.squared.data();
@@ -205,7 +205,7 @@ void PlaceSelection::rank()
   }
   // Floats that are not negative are in order as integers. In fours; none is above the last ones.
   std::array<std::int32_t, mostCounted> keys;
-  std::array<std::int32_t, mostCounted> ranks{};
+  std::array<std::int32_t, mostCounted> before{};
   keys.fill(std::numeric_limits<std::int32_t>::max());
   for (std::size_t i = 0; i < count; ++i)
   {
@@ -218,12 +218,12 @@ void PlaceSelection::rank()
     const std::int32_t key = keys[other];
     for (std::size_t i = 0; i < padded(count); ++i)
     {
-      ranks[i] += keys[i] > key ? 1 : 0;
+      before[i] += keys[i] > key ? 1 : 0;
     }
   }
   for (std::size_t i = 0; i < count; ++i)
   {
-    order[static_cast<std::size_t>(ranks[i])] = static_cast<std::uint32_t>(i);
+    order[static_cast<std::size_t>(before[i])] = static_cast<std::uint32_t>(i);
   }
 }
 

@@ -55,8 +55,8 @@ public:
   /// distance of the last cannot be told apart, and for fewer than are wanted or more than
   /// mostToKeepFrom.
   std::optional<Gap> keepNearest(std::size_t wanted);
-  /// Puts the selected in order, nearest first but for a share of rankError.
-  void rank();
+  /// Puts the selected in order, nearest first but for a share of orderError.
+  void sort();
 
   const Distances& measured() const { return measured_; }
   /// Distances of those selected, in the order of the ball.
@@ -64,12 +64,12 @@ public:
   std::size_t size() const { return distances_.count; }
   /// Where in the ball a selected one is.
   std::uint32_t operator[](std::size_t i) const { return selected_[i]; }
-  /// The one at a rank.
-  std::uint32_t ranked(std::size_t rank) const { return order_[rank]; }
+  /// The nth of that order.
+  std::uint32_t nth(std::size_t n) const { return order_[n]; }
   float limit() const { return limit_; } ///< limit of select()
 
-  /// Possible error of a squared distance in the order of rank().
-  static constexpr float rankError = 3e-5f;
+  /// Possible error of a squared distance in the order of sort().
+  static constexpr float orderError = 3e-5f;
   /// A limit within which there are `fewest` to `most` of the distances; where ties or too few of
   /// them leave none, one with more, or `everything`. `likely`: about where it is.
   static float limitOf(

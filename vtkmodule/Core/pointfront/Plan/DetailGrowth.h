@@ -76,7 +76,7 @@ public:
   /// Called after all nodes: the nodes that are drawn in addition. Unordered only.
   std::vector<Leaving> finish();
 
-  /// Whether another frame with the same demand would differ.
+  /// Whether another frame with the same request would differ.
   bool growing() const { return growing_; }
   /// Whether everything that the front draws is shown at full size.
   bool whole() const { return whole_; }

@@ -302,11 +302,11 @@ float prefixSpacing(const NodeColumns& node, std::uint32_t drawn, float spacingR
   return static_cast<float>(prefixErrorPx(points, drawn, node.spacing, spacingRatio));
 }
 
-bool leavesOut(const FrontDelta& delta, const FrameRequest& demand)
+bool leavesOut(const FrontDelta& delta, const FrameRequest& request)
 {
   // In motion the frame time limits the front: at rest the same view may show more.
-  const bool limited = demand.interacting && delta.errorPx > demand.targetErrorPx;
-  return !demand.complete && (!delta.complete || limited);
+  const bool limited = request.interacting && delta.errorPx > request.targetErrorPx;
+  return !request.complete && (!delta.complete || limited);
 }
 
 FramePlan planFrame(

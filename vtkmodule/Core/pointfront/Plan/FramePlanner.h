@@ -57,7 +57,7 @@ FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request);
 
 /// Whether the view will show more than this frame: it moves, or nodes are being loaded.
-bool leavesOut(const FrontDelta& delta, const FrameRequest& demand);
+bool leavesOut(const FrontDelta& delta, const FrameRequest& request);
 
 /// World units between the points on screen when the first `drawn` points of a node and all nodes
 /// above it are drawn; `spacingRatio` as in DrawItem. 0 where the node's spacing is not known.

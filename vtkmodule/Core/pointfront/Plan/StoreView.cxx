@@ -17,9 +17,9 @@ void StoreView::open(std::unique_ptr<ViewFront> front)
   due_ = true;
 }
 
-const FrontDelta& StoreView::update(FrameRequest demand)
+const FrontDelta& StoreView::update(FrameRequest request)
 {
-  request_ = std::move(demand);
+  request_ = std::move(request);
   return front_->update(request_);
 }
 

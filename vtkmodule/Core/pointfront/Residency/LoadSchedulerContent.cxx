@@ -127,7 +127,7 @@ std::optional<LoadScheduler::Content::Read> LoadScheduler::Content::take(Clock::
     const std::optional<StoreNodes::Urgency> next = member.store->next();
     if (next &&
       (best == nullptr ||
-        std::tie(next->rank, most.priority) < std::tie(most.rank, next->priority)))
+        std::tie(next->turn, most.priority) < std::tie(most.turn, next->priority)))
     {
       best = &member;
       most = *next;

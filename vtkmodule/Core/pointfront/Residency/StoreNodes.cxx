@@ -58,7 +58,7 @@ std::optional<StoreNodes::Urgency> StoreNodes::next() const
   {
     return Urgency{ 0, std::numeric_limits<double>::infinity() };
   }
-  return choice ? std::optional<Urgency>({ choice->rank, choice->request.priority }) : std::nullopt;
+  return choice ? std::optional<Urgency>({ choice->turn, choice->request.priority }) : std::nullopt;
 }
 
 std::optional<StoreNodes::Task> StoreNodes::begin()

@@ -34,11 +34,11 @@ public:
     std::size_t bytes = 0; ///< reserved for it
     bool reread = false; ///< the node is or was in memory with other columns
   };
-  /// The urgency by which waiting nodes are compared across stores: lower ranks first, then larger
+  /// The urgency by which waiting nodes are compared across stores: lower turns first, then larger
   /// priorities (projected errors).
   struct Urgency
   {
-    int rank = 0;
+    int turn = 0;
     double priority = 0.0;
   };
 

@@ -32,7 +32,7 @@ public:
   struct Choice
   {
     LoadRequest request;
-    int rank = 0; ///< lower ones go first; then larger priorities
+    int turn = 0; ///< lower ones go first; then larger priorities
     bool reread = false;
     bool inPlaceOfOld = false; ///< fits only after the node's old points are gone
   };

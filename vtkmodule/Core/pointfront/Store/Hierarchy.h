@@ -162,11 +162,11 @@ public:
     , roots_(std::move(roots))
     , refinement_(refinement)
   {
-    std::uint64_t rank = 0;
+    std::uint64_t number = 0;
     for (Node& node : nodes_)
     {
-      node.firstPoint = rank;
-      rank += node.pointCount;
+      node.firstPoint = number;
+      number += node.pointCount;
     }
   }
   NodeIndex nodeCount() const override { return static_cast<NodeIndex>(nodes_.size()); }

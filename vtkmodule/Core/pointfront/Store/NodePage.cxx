@@ -14,11 +14,11 @@ namespace pointfront
 namespace
 {
 constexpr std::size_t checksumAt = nodePageBytes - 4;
-constexpr std::size_t rankAt = checksumAt - 8 - 4;
+constexpr std::size_t firstPointAt = checksumAt - 8 - 4;
 
 constexpr bool fits(NodeRowForm form)
 {
-  return nodePageRowsOf(form) * nodeRowBytes(form) <= rankAt;
+  return nodePageRowsOf(form) * nodeRowBytes(form) <= firstPointAt;
 }
 static_assert(fits(NodeRowForm::Plain) && fits(NodeRowForm::WithSplatRadius));
 
@@ -98,7 +98,7 @@ void encodeNodePage(const Node* rows, std::uint32_t count, std::uint32_t page, s
   ByteWriter end;
   end.put(rows[0].firstPoint);
   end.put(page);
-  std::memcpy(target + rankAt, end.bytes().data(), end.size());
+  std::memcpy(target + firstPointAt, end.bytes().data(), end.size());
   const std::uint32_t checksum = checksumOf(target, checksumAt);
   std::memcpy(target + checksumAt, &checksum, sizeof(checksum));
 }
@@ -110,7 +110,7 @@ std::string decodeNodePage(const std::byte* data, std::uint32_t page, const Tabl
   const NodeIndex first = page * nodePageRowsOf(form);
   const std::string name = "node table, node " + std::to_string(first) + " to node " +
     std::to_string(first + count - 1) + ": ";
-  ByteReader end(data + rankAt, 16);
+  ByteReader end(data + firstPointAt, 16);
   auto firstPoint = end.get<std::uint64_t>();
   const auto number = end.get<std::uint32_t>();
   if (!matchesChecksum(data, checksumAt, end.get<std::uint32_t>()))
@@ -122,7 +122,7 @@ std::string decodeNodePage(const std::byte* data, std::uint32_t page, const Tabl
     return name + "the page is number " + std::to_string(number) + " instead of " +
       std::to_string(page);
   }
-  ByteReader in(data, rankAt);
+  ByteReader in(data, firstPointAt);
   for (std::uint32_t r = 0; r < count; ++r)
   {
     rows[r] = decodeNodeRow(form, in);
@@ -145,10 +145,10 @@ std::vector<std::byte> encodeNodePages(const std::vector<Node>& nodes)
   {
     const std::uint32_t length = nodePageLength(count, page);
     const Node* rows = nodes.data() + std::size_t(page) * nodePageRows;
-    NodePage ranked;
-    std::copy(rows, rows + length, ranked.begin());
-    ranked[0].firstPoint = firstPoint;
-    encodeNodePage(ranked.data(), length, page, bytes.data() + std::size_t(page) * nodePageBytes);
+    NodePage numbered;
+    std::copy(rows, rows + length, numbered.begin());
+    numbered[0].firstPoint = firstPoint;
+    encodeNodePage(numbered.data(), length, page, bytes.data() + std::size_t(page) * nodePageBytes);
     for (std::uint32_t r = 0; r < length; ++r)
     {
       firstPoint += rows[r].pointCount;

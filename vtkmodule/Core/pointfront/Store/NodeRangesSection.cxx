@@ -65,7 +65,8 @@ void addGapEnds(const std::vector<double>& bounds, std::set<double>& marks)
 }
 
 /// Values that ranges are rounded outwards to: all bounds of nodes where there are 256 at most,
-/// else the ends of gaps and others at equal ranks, so that outliers take no more than their share.
+/// else the ends of gaps and others with equally many values between, so that outliers take no more
+/// than their share.
 std::vector<double> chooseMarks(const std::vector<ValueRange>& own)
 {
   const std::size_t step = own.size() / mostSampled + 1;

@@ -98,7 +98,7 @@ public:
     std::uint32_t node, std::uint32_t pointCount, std::vector<ByteRange>& reads) const override
   {
     RawBytes bytes = begun(pointCount, payloadRecordBytes(blocksPerNode_));
-    reads.push_back({ placeOf(node), bytes.size - countBytes, bytes.data.get() + countBytes });
+    reads.push_back({ offsetOf(node), bytes.size - countBytes, bytes.data.get() + countBytes });
     return bytes;
   }
 
@@ -108,8 +108,8 @@ public:
     const std::size_t size = fetched.size - countBytes;
     const auto damaged = [&](const std::string& what)
     {
-      return corruptStore(
-        file_.path(), placeOf(node), "block directory, node " + std::to_string(node) + ": " + what);
+      return corruptStore(file_.path(), offsetOf(node),
+        "block directory, node " + std::to_string(node) + ": " + what);
     };
     ByteReader end(record + size - 4, 4);
     if (!matchesChecksum(record, size - 4, end.get<std::uint32_t>()))
@@ -126,7 +126,7 @@ public:
   }
 
 private:
-  std::uint64_t placeOf(std::uint32_t node) const
+  std::uint64_t offsetOf(std::uint32_t node) const
   {
     return offset_ + std::uint64_t(node) * payloadRecordBytes(blocksPerNode_);
   }

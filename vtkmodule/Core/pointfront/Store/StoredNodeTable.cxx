@@ -34,7 +34,7 @@ public:
   Result<void> read(std::uint32_t page, NodePage& rows) const override
   {
     std::array<std::byte, nodePageBytes> bytes;
-    const Result<void> done = file_->readAt(placeOf(page), bytes.data(), bytes.size());
+    const Result<void> done = file_->readAt(offsetOf(page), bytes.data(), bytes.size());
     return done ? decode(page, bytes.data(), rows) : done;
   }
   std::size_t pagesAtOnce() const override { return file_->cost().far() ? farPagesAtOnce : 1; }
@@ -45,7 +45,7 @@ public:
     std::vector<ByteRange> ranges;
     for (std::size_t p = 0; p < pages.size(); ++p)
     {
-      ranges.push_back({ placeOf(pages[p]), nodePageBytes, bytes.data() + p * nodePageBytes });
+      ranges.push_back({ offsetOf(pages[p]), nodePageBytes, bytes.data() + p * nodePageBytes });
     }
     const Result<void> done = file_->read(ranges.data(), ranges.size());
     std::vector<Result<void>> results;
@@ -57,14 +57,14 @@ public:
   }
 
 private:
-  std::uint64_t placeOf(std::uint32_t page) const
+  std::uint64_t offsetOf(std::uint32_t page) const
   {
     return offset_ + std::uint64_t(page) * nodePageBytes;
   }
   Result<void> decode(std::uint32_t page, const std::byte* bytes, NodePage& rows) const
   {
     const std::string fault = decodeNodePage(bytes, page, limits_, rows, form_);
-    return fault.empty() ? Result<void>() : corruptStore(file_->path(), placeOf(page), fault);
+    return fault.empty() ? Result<void>() : corruptStore(file_->path(), offsetOf(page), fault);
   }
 
   std::shared_ptr<const ByteSource> file_;

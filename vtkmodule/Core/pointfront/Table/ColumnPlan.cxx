@@ -191,7 +191,7 @@ Result<void> Planner::findPosition()
       continue;
     }
     std::optional<std::size_t>& axis = plan_.position[role.component];
-    if (axis && role.rank == 0)
+    if (axis && role.preference == 0)
     {
       return makeError(Error::Kind::BadFormat,
         path_ + ": '" + fields_[f].name + "' is there twice; name the columns otherwise");

@@ -33,7 +33,7 @@ struct ComponentName
   FieldRole::Kind kind;
   std::string_view attribute;
   unsigned component;
-  unsigned rank = 0;
+  unsigned preference = 0;
 };
 
 constexpr auto position = FieldRole::Kind::Position;
@@ -182,7 +182,7 @@ FieldRole roleOf(std::string_view name)
   {
     if (row.name == key || (row.kind == position && row.name == bare))
     {
-      return { row.kind, std::string(row.attribute), row.component, {}, row.rank };
+      return { row.kind, std::string(row.attribute), row.component, {}, row.preference };
     }
   }
   for (const AttributeName& row : attributeNames)
@@ -207,7 +207,7 @@ std::vector<FieldRole> rolesOf(const std::vector<std::string>& names)
     const FieldRole& role = roles.back();
     if (role.kind == position)
     {
-      best[role.component] = std::min(best[role.component], role.rank);
+      best[role.component] = std::min(best[role.component], role.preference);
     }
   }
   if (best[0] == none || best[1] == none)
@@ -218,7 +218,7 @@ std::vector<FieldRole> rolesOf(const std::vector<std::string>& names)
   for (std::size_t f = 0; f < names.size(); ++f)
   {
     FieldRole& role = roles[f];
-    if (role.kind == position && role.rank != best[role.component])
+    if (role.kind == position && role.preference != best[role.component])
     {
       role = { FieldRole::Kind::Attribute, keptName(names[f]), 0, {} };
     }

@@ -31,7 +31,7 @@ struct FieldRole
   std::optional<ScalarType> type = {}; ///< the type of a well-known attribute
   /// How sure the name of a position is: 0 x, y, z; 1 easting, longitude, Points:0 ...; 2 names
   /// that also stand for other things: e, n, h, height.
-  unsigned rank = 0;
+  unsigned preference = 0;
 };
 
 FieldRole roleOf(std::string_view name);

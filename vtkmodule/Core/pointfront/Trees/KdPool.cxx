@@ -60,12 +60,12 @@ struct CutOrder
   }
 };
 
-std::uint32_t digitAt(const Digits& digits, std::uint64_t& rank)
+std::uint32_t digitAt(const Digits& digits, std::uint64_t& nth)
 {
   std::uint32_t digit = 0;
-  while (rank >= digits[digit])
+  while (nth >= digits[digit])
   {
-    rank -= digits[digit++];
+    nth -= digits[digit++];
   }
   return digit;
 }
@@ -200,10 +200,10 @@ CellTable KdPool::bucketTable(
   for (std::size_t i = 0; i < cells.size(); ++i)
   {
     const auto place = static_cast<std::uint32_t>(firstPlace + i);
-    const auto rank = std::lower_bound(divided_.begin(), divided_.end(), place) - divided_.begin();
+    const auto nth = std::lower_bound(divided_.begin(), divided_.end(), place) - divided_.begin();
     const std::uint64_t bucket = places_[place].part != KdPlace::none
       ? places_[place].part
-      : counts_.size() + static_cast<std::uint64_t>(rank);
+      : counts_.size() + static_cast<std::uint64_t>(nth);
     table.at(table.cellOf(cells[i].origin)) = bucket + 1;
   }
   return table;
@@ -262,15 +262,15 @@ Result<void> KdPool::distribute(std::uint32_t place, std::vector<Piece> pieces)
 
 /// By counting 16 bits at a time, so that a cell of any number of points is divided in the memory
 /// of a block. Points are in the order of their coordinates, that of the cut's axis first: those
-/// before the position of that rank go to the left, of those at it the first in input order.
+/// before the nth position go to the left, of those at it the first in input order.
 Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& pieces,
   std::vector<Piece>& left, std::vector<Piece>& right)
 {
   RunSorter sorter(sorter_.pool(), sorter_.recordBytes());
   const CutOrder order{ points_->space, place.axis };
-  std::uint64_t rank = place.first;
+  std::uint64_t nth = place.first;
   CutKey key{};
-  for (std::size_t digit = 0; digit < key.size() && (digit == 0 || rank > 0); ++digit)
+  for (std::size_t digit = 0; digit < key.size() && (digit == 0 || nth > 0); ++digit)
   {
     Digits digits(1u << 16, 0);
     for (const Piece& piece : pieces)
@@ -288,9 +288,9 @@ Result<void> KdPool::divide(const KdPlace& place, const std::vector<Piece>& piec
           : 0u;
       }
     }
-    key[digit] = static_cast<std::uint16_t>(digitAt(digits, rank));
+    key[digit] = static_cast<std::uint16_t>(digitAt(digits, nth));
   }
-  std::uint64_t equalToTheLeft = rank;
+  std::uint64_t equalToTheLeft = nth;
   const auto side = [&](const std::byte* record) -> std::uint32_t
   {
     const CutKey own = order.keyOf(record);

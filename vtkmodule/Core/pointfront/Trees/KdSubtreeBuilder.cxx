@@ -223,11 +223,11 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
     coordinates_[i] = positions_[active_[i]][axis];
     ++counts[(coordinate(i) - low) >> shift];
   }
-  std::uint64_t rank = wanted;
+  std::uint64_t nth = wanted;
   std::uint32_t interval = 0;
-  while (rank >= counts[interval])
+  while (nth >= counts[interval])
   {
-    rank -= counts[interval++];
+    nth -= counts[interval++];
   }
   std::vector<std::pair<std::uint32_t, std::uint32_t>> inside; // coordinate, Morton order
   for (std::size_t i = region.begin; i < region.end; ++i)
@@ -237,7 +237,7 @@ std::size_t KdSubtreeBuilder::divide(const Region& region)
       inside.emplace_back(coordinate(i), active_[i]);
     }
   }
-  const auto at = inside.begin() + static_cast<std::ptrdiff_t>(rank);
+  const auto at = inside.begin() + static_cast<std::ptrdiff_t>(nth);
   std::nth_element(inside.begin(), at, inside.end());
   const std::pair<std::uint32_t, std::uint32_t> first = *at; // the first of the right half
   return separate(region, first);

@@ -25,7 +25,7 @@ std::uint64_t hashOf(const TreePosition& p)
 std::vector<std::uint32_t> prefixOrder(
   const RecordSpan& records, const std::vector<std::uint32_t>& indices)
 {
-  std::vector<RankedHash> points(indices.size());
+  std::vector<NumberedHash> points(indices.size());
   for (std::size_t i = 0; i < indices.size(); ++i)
   {
     points[i] = { indices[i], static_cast<std::uint32_t>(hashOf(records.position(indices[i]))) };
@@ -33,11 +33,11 @@ std::vector<std::uint32_t> prefixOrder(
   return prefixBatches(std::move(points));
 }
 
-std::vector<std::uint32_t> prefixBatches(std::vector<RankedHash> points)
+std::vector<std::uint32_t> prefixBatches(std::vector<NumberedHash> points)
 {
   std::vector<std::uint32_t> ordered(points.size());
-  // Ranks and hashes move together: a hash is made once, and read where it is needed.
-  std::vector<RankedHash> coarse = std::move(points);
+  // Numbers and hashes move together: a hash is made once, and read where it is needed.
+  std::vector<NumberedHash> coarse = std::move(points);
   std::size_t end = ordered.size(); // the places before it are still free
   for (unsigned round = 0; coarse.size() > smallestBatch; ++round)
   {

@@ -21,7 +21,7 @@ std::vector<std::uint32_t> prefixOrder(
   const RecordSpan& records, const std::vector<std::uint32_t>& indices);
 
 /// A point of a node and a fixed, well mixed hash of it.
-struct RankedHash
+struct NumberedHash
 {
   std::uint32_t index;
   std::uint32_t hash;
@@ -29,6 +29,6 @@ struct RankedHash
 
 /// The same order of points that come in some order of their own, which every batch keeps: along
 /// the Morton curve, or as a scanner wrote them.
-std::vector<std::uint32_t> prefixBatches(std::vector<RankedHash> points);
+std::vector<std::uint32_t> prefixBatches(std::vector<NumberedHash> points);
 
 } // namespace pointfront

@@ -35,12 +35,12 @@ TreeAssembly::TreeAssembly(
   , crew_(crew)
   , watch_(watch)
   , order_(postOrder(plan_.tree))
-  , rank_(order_.size())
+  , turns_(order_.size())
   , open_(order_.size())
 {
   for (std::uint32_t i = 0; i < order_.size(); ++i)
   {
-    rank_[order_[i]] = i;
+    turns_[order_[i]] = i;
     if (plan_.tree[order_[i]].part != PartNode::none)
     {
       partNodes_.push_back(order_[i]);
@@ -90,7 +90,7 @@ bool TreeAssembly::takePart(std::uint32_t& node)
   std::unique_lock<std::mutex> lock(mutex_);
   while (!crew_.stopped() && nextPart_ < partNodes_.size())
   {
-    if (rank_[partNodes_[nextPart_]] <= turn_ + aheadPerThread * crew_.threads())
+    if (turns_[partNodes_[nextPart_]] <= turn_ + aheadPerThread * crew_.threads())
     {
       node = partNodes_[nextPart_++];
       return true;
@@ -118,7 +118,7 @@ Result<void> TreeAssembly::buildPart(std::uint32_t node, ReadAhead& parts, TreeB
       root = builder.close(std::move(subtree));
     }
     std::unique_lock<std::mutex> lock(mutex_);
-    waiting_[rank_[node]] = builder.takeEmitted();
+    waiting_[turns_[node]] = builder.takeEmitted();
     if (parent == PartNode::none)
     {
       roots_[part.layer] = std::move(root);
@@ -235,7 +235,7 @@ std::vector<std::uint32_t> TreeAssembly::writtenSubtrees() const
   for (std::uint32_t i = 0; i < turn_; ++i)
   {
     const std::uint32_t parent = plan_.tree[order_[i]].parent;
-    if (parent == PartNode::none || rank_[parent] >= turn_)
+    if (parent == PartNode::none || turns_[parent] >= turn_)
     {
       nodes.push_back(order_[i]);
     }

@@ -88,7 +88,7 @@ private:
   WorkCrew& crew_;
   AssemblyWatch* watch_;
   std::vector<std::uint32_t> order_; // partition nodes in the order of the file
-  std::vector<std::uint32_t> rank_; // place of each partition node in order_
+  std::vector<std::uint32_t> turns_; // place of each partition node in order_
   std::vector<std::uint32_t> partNodes_; // the parts among order_
 
   std::mutex mutex_; // guards what follows
@@ -100,7 +100,7 @@ private:
   std::uint32_t shown_ = 0; // turn_ of what it was shown last
   std::vector<OpenSubtree> open_; // open subtree of each partition node
   std::vector<std::uint8_t> missing_; // children not finished, of each partition node
-  std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by rank
+  std::map<std::uint32_t, std::vector<EmittedNode>> waiting_; // by turn
   std::vector<std::unique_ptr<BuiltNode>> roots_; // root of each layer
   SubtreeSeconds seconds_;
   double loadSeconds_ = 0.0;

@@ -76,27 +76,27 @@ std::shared_ptr<const NodeColumns> ViewFront::find(NodeIndex node) const
   return share_.residency().find(node);
 }
 
-const FrontDelta& ViewFront::update(const FrameRequest& demand)
+const FrontDelta& ViewFront::update(const FrameRequest& request)
 {
-  wish_->setLayerColumns(demand.columns);
-  covered_ = covered_ && columns_ == demand.columns;
-  columns_ = demand.columns;
+  wish_->setLayerColumns(request.columns);
+  covered_ = covered_ && columns_ == request.columns;
+  columns_ = request.columns;
   const std::size_t pointBytes = largestPoint(share_.residency().layerColumns());
   told_ = pointBytes == pointBytes_ ? told_ : 0;
   pointBytes_ = pointBytes;
-  choose(demand.method);
+  choose(request.method);
   if (!begun_)
   {
     begun_ = true;
     loadRoots();
   }
-  if (demand.complete)
+  if (request.complete)
   {
-    complete(demand);
+    complete(request);
   }
   else
   {
-    step(demand);
+    step(request);
     // At rest the threshold falls on at once until requests pile up (FRONT-7): no frame shows less
     // than what is loaded, and what is missing is asked for together, the largest errors first. One
     // update a drawing would ask for it in waves, each as long as a drawing. After a step without
@@ -104,22 +104,22 @@ const FrontDelta& ViewFront::update(const FrameRequest& demand)
     const auto begin = std::chrono::steady_clock::now();
     const auto inTime = [&] { return std::chrono::steady_clock::now() - begin < restTime; };
     bool moved = true;
-    while (!demand.interacting && !delta_.complete && (movedOn() ? inTime() : moved))
+    while (!request.interacting && !delta_.complete && (movedOn() ? inTime() : moved))
     {
       moved = movedOn();
-      step(demand);
+      step(request);
     }
-    noteColumns(demand);
+    noteColumns(request);
   }
-  expect(demand);
+  expect(request);
   if (others_ && method_ == DetailMethod::RenderingFront)
   {
     std::function<bool()> waits;
-    if (demand.complete && delta_.complete) // not where it was aborted
+    if (request.complete && delta_.complete) // not where it was aborted
     {
-      waits = [&demand] { return !demand.aborted || !demand.aborted(); };
+      waits = [&request] { return !request.aborted || !request.aborted(); };
     }
-    others_->update(demand.view, limits_, delta_.thresholdPx, waits);
+    others_->update(request.view, limits_, delta_.thresholdPx, waits);
   }
   return delta_;
 }
@@ -212,20 +212,20 @@ void ViewFront::loadRoots()
 /// Reads the demand of the other views, for the memory and the window. Where this update may draw
 /// fewer points than the last one, as when a motion begins, those who are yet to come down do not
 /// count with what they have on screen (SharedDemand).
-void ViewFront::readShares(const FrameRequest& demand)
+void ViewFront::readShares(const FrameRequest& request)
 {
   const LoadScheduler& scheduler = share_.residency().scheduler();
   const std::uint64_t revision = sharedRevision();
   const std::uint64_t points = limits_.sharedDrawn.most;
-  const bool otherBudgets = points != pointBudgetSeen_ || demand.gpuBytes != gpuBytesSeen_;
+  const bool otherBudgets = points != pointBudgetSeen_ || request.gpuBytes != gpuBytesSeen_;
   if (revision != sharedSeen_ || otherBudgets)
   {
     sharedSeen_ = revision;
     told_ = otherBudgets ? 0 : told_;
     pointBudgetSeen_ = points;
-    gpuBytesSeen_ = demand.gpuBytes;
+    gpuBytesSeen_ = request.gpuBytes;
     window_->points.elsewhere(elsewhere_.drawn, points);
-    window_->slots.elsewhere(elsewhere_.slots, static_cast<std::uint64_t>(demand.gpuBytes));
+    window_->slots.elsewhere(elsewhere_.slots, static_cast<std::uint64_t>(request.gpuBytes));
     memory_.elsewhere(elsewhere_.held);
     for (std::size_t step = 0; step < DemandCurve::size; ++step)
     {
@@ -241,7 +241,7 @@ void ViewFront::readShares(const FrameRequest& demand)
 }
 
 /// Tells the others this view's demand.
-void ViewFront::tellDemand(const FrameRequest& demand)
+void ViewFront::tellDemand(const FrameRequest& request)
 {
   DemandCurves curves;
   selection_->demandCurves(curves);
@@ -253,44 +253,45 @@ void ViewFront::tellDemand(const FrameRequest& demand)
   const std::uint64_t before = sharedRevision();
   memory_.set(curves.held);
   window_->points.set(curves.drawn, limits_.sharedDrawn.most);
-  window_->slots.set(curves.slots, static_cast<std::uint64_t>(demand.gpuBytes));
+  window_->slots.set(curves.slots, static_cast<std::uint64_t>(request.gpuBytes));
   sharedSeen_ += sharedRevision() - before;
 }
 
-void ViewFront::setLimits(const FrameRequest& demand)
+void ViewFront::setLimits(const FrameRequest& request)
 {
   FrontLimits& limits = limits_;
-  limits.targetErrorPx = demand.targetErrorPx;
-  limits.pointBudget = demand.pointBudget;
-  limits.layers = demand.layers;
-  limits.sharedDrawn.most = demand.pointBudget;
+  limits.targetErrorPx = request.targetErrorPx;
+  limits.pointBudget = request.pointBudget;
+  limits.layers = request.layers;
+  limits.sharedDrawn.most = request.pointBudget;
   const std::uint64_t claims = window_->points.claims();
-  limits.sharedSlots.most =
-    demand.gpuBytes > 0 ? GpuSlotBytes::slotsWithin(demand.gpuBytes, demand.gpuStreams, claims) : 0;
+  limits.sharedSlots.most = request.gpuBytes > 0
+    ? GpuSlotBytes::slotsWithin(request.gpuBytes, request.gpuStreams, claims)
+    : 0;
   limits.requestLimit = mostRequests;
-  limits.interacting = demand.interacting;
-  limits.motionErrorPx = demand.targetErrorPx;
-  limits.movesPerFrame = demand.complete ? movesToComplete : movesAtRest;
-  limits.prefetchSiblings = !demand.complete;
-  limits.overviewPoints = demand.overviewPoints;
+  limits.interacting = request.interacting;
+  limits.motionErrorPx = request.targetErrorPx;
+  limits.movesPerFrame = request.complete ? movesToComplete : movesAtRest;
+  limits.prefetchSiblings = !request.complete;
+  limits.overviewPoints = request.overviewPoints;
   limits.heldPointBudget =
     static_cast<std::uint64_t>(heldShare * static_cast<double>(share_.budgetBytes()) /
       static_cast<double>(pointBytes_ * std::max<std::size_t>(1, share_.wishes())));
   const auto clouds = static_cast<double>(claims);
-  const double frameMs = demand.frameMs > 0.0 ? demand.frameMs : clouds * demand.cloudMs;
-  if (demand.interacting && frameMs > 0.0)
+  const double frameMs = request.frameMs > 0.0 ? request.frameMs : clouds * request.cloudMs;
+  if (request.interacting && frameMs > 0.0)
   {
     // All clouds share them, at one error.
     const WindowCost& cost = *window_->window->cost;
-    const bool still = demand.view == motionView_ && frameMs == motionMs_;
-    motionView_ = demand.view;
+    const bool still = request.view == motionView_ && frameMs == motionMs_;
+    motionView_ = request.view;
     motionMs_ = frameMs;
     const std::uint64_t all =
       std::max(motionPoints_.next(cost.pointsFor(frameMs, fewestPoints), still), cost.heldPoints());
     const std::uint64_t affordable =
       std::max<std::uint64_t>(fewestPoints, all - std::min(cost.beside(), 2 * all / 5));
     std::uint64_t& most = clouds > 1.0 ? limits.sharedDrawn.most : limits.pointBudget;
-    most = demand.pointBudget == 0 ? affordable : std::min(demand.pointBudget, affordable);
+    most = request.pointBudget == 0 ? affordable : std::min(request.pointBudget, affordable);
     const auto moves = static_cast<double>(cost.movesFor(frameMs)) / clouds;
     limits.movesPerFrame = std::max(fewestMoves, static_cast<std::uint32_t>(moves));
   }
@@ -298,19 +299,19 @@ void ViewFront::setLimits(const FrameRequest& demand)
   {
     motionMs_ = 0.0;
   }
-  readShares(demand);
+  readShares(request);
 }
 
 /// Where nothing has changed nothing is told nor asked for: a still view costs next to nothing,
 /// however many there are.
-void ViewFront::step(const FrameRequest& demand)
+void ViewFront::step(const FrameRequest& request)
 {
   thresholdBefore_ = delta_.thresholdPx;
   arrivalsSeen_ = share_.residency().arrivals();
   rowsSeen_ = piece_->hierarchy()->arrivals();
-  setLimits(demand);
-  const FrontDelta& made = selection_->update(demand.view, share_.residency(), limits_);
-  const bool sameAgain = made.number == told_ && !demand.interacting;
+  setLimits(request);
+  const FrontDelta& made = selection_->update(request.view, share_.residency(), limits_);
+  const bool sameAgain = made.number == told_ && !request.interacting;
   if (sameAgain && !marginGoesOn())
   {
     delta_.complete = made.complete;
@@ -318,10 +319,10 @@ void ViewFront::step(const FrameRequest& demand)
   }
   covered_ = false;
   marginWalks_ = sameAgain ? marginWalks_ : 0;
-  told_ = demand.interacting ? 0 : made.number; // in motion it has a margin that goes at rest
+  told_ = request.interacting ? 0 : made.number; // in motion it has a margin that goes at rest
   delta_ = made;
-  tellDemand(demand);
-  addMargin(demand);
+  tellDemand(request);
+  addMargin(request);
   wish_->request(
     delta_.requests, [this](NodeIndex node) { return selection_->distanceUnderFront(node); });
 }
@@ -338,9 +339,9 @@ bool ViewFront::allCovered() const
 
 /// A view at rest is not complete while what it draws is read again with the columns that a new
 /// colour or filter wants: until then those points are drawn without, or not at all.
-void ViewFront::noteColumns(const FrameRequest& demand)
+void ViewFront::noteColumns(const FrameRequest& request)
 {
-  if (!delta_.complete || demand.interacting || covered_)
+  if (!delta_.complete || request.interacting || covered_)
   {
     return;
   }
@@ -354,7 +355,7 @@ void ViewFront::noteColumns(const FrameRequest& demand)
 
 /// Waits for rows of the table if those are missing, or else for nodes. False: aborted, or there is
 /// no memory to load with.
-bool ViewFront::waitForNews(const FrameRequest& demand)
+bool ViewFront::waitForNews(const FrameRequest& request)
 {
   const Residency& residency = share_.residency();
   const Hierarchy& table = *piece_->hierarchy();
@@ -365,7 +366,7 @@ bool ViewFront::waitForNews(const FrameRequest& demand)
   };
   while (!arrived())
   {
-    if ((demand.aborted && demand.aborted()) || residency.scheduler().starving())
+    if ((request.aborted && request.aborted()) || residency.scheduler().starving())
     {
       return false;
     }
@@ -381,19 +382,19 @@ bool ViewFront::waitForNews(const FrameRequest& demand)
   return true;
 }
 
-void ViewFront::complete(const FrameRequest& demand)
+void ViewFront::complete(const FrameRequest& request)
 {
   Residency& residency = share_.residency();
   int idle = 0;
   while (idle < 2)
   {
-    step(demand);
+    step(request);
     if (delta_.complete && allCovered())
     {
       return;
     }
     const bool moved = movedOn();
-    if ((delta_.rowsComing || !moved) && !waitForNews(demand))
+    if ((delta_.rowsComing || !moved) && !waitForNews(request))
     {
       delta_.complete = false;
       told_ = 0;

@@ -27,7 +27,7 @@ enum class DetailMethod
   ViewSpecific ///< ViewDetail
 };
 
-/// The demand of one frame of one view on its front.
+/// A frame of one view asks its front for this.
 struct FrameRequest
 {
   DetailMethod method = DetailMethod::RenderingFront;
@@ -50,7 +50,7 @@ struct FrameRequest
 
 /// The front of one view of a store, with its share of the residency. Several views of one cloud
 /// have one of these each.
-/// Guarantees  update() waits for the disk only when the demand is `complete`, and on the first
+/// Guarantees  update() waits for the disk only when the request is `complete`, and on the first
 ///             update for the roots (one node a layer), so that no first frame is empty unless the
 ///             disk hangs: half a second at most, and all new clouds of a window together a second
 ///             (RootWait). A complete update that is aborted is not complete, and can be repeated.
@@ -64,7 +64,7 @@ public:
   ~ViewFront();
 
   /// Moves the front towards the view. The delta is valid until the next update.
-  const FrontDelta& update(const FrameRequest& demand);
+  const FrontDelta& update(const FrameRequest& request);
   const FrontDelta& last() const { return delta_; }
 
   /// The nodes that other processes draw of the last update's view beside this piece; empty for a
@@ -122,22 +122,22 @@ private:
   static constexpr std::uint32_t mostRequests = 1024; ///< at once
 
   void choose(DetailMethod method);
-  void step(const FrameRequest& demand);
-  void expect(const FrameRequest& demand);
-  void addMargin(const FrameRequest& demand);
+  void step(const FrameRequest& request);
+  void expect(const FrameRequest& request);
+  void addMargin(const FrameRequest& request);
   bool marginGoesOn() const;
   bool allCovered() const;
-  void noteColumns(const FrameRequest& demand);
+  void noteColumns(const FrameRequest& request);
   bool isSettled() const;
   std::size_t largestPoint(const LayerColumns& columns) const;
   bool movedOn() const;
-  void complete(const FrameRequest& demand);
-  bool waitForNews(const FrameRequest& demand);
+  void complete(const FrameRequest& request);
+  bool waitForNews(const FrameRequest& request);
   void loadRoots();
-  void setLimits(const FrameRequest& demand);
+  void setLimits(const FrameRequest& request);
   std::uint64_t sharedRevision() const { return memory_.revision() + window_->revision(); }
-  void readShares(const FrameRequest& demand);
-  void tellDemand(const FrameRequest& demand);
+  void readShares(const FrameRequest& request);
+  void tellDemand(const FrameRequest& request);
 
   std::shared_ptr<const HierarchyPiece> piece_;
   ResidencyShare& share_;

@@ -6,9 +6,9 @@ namespace pointfront
 {
 
 /// Where a budget keeps the threshold up it stays where it is, and falls to its target elsewhere.
-void ViewFront::expect(const FrameRequest& demand)
+void ViewFront::expect(const FrameRequest& request)
 {
-  const bool rests = !demand.interacting && !demand.complete;
+  const bool rests = !request.interacting && !request.complete;
   const bool byView = method_ == DetailMethod::ViewSpecific;
   if (!rests || others_)
   {
@@ -27,7 +27,7 @@ void ViewFront::expect(const FrameRequest& demand)
   }
   const bool limited =
     !byView && (delta_.limitedByBudget || delta_.limitedByGpu || delta_.limitedByMemory);
-  expected_->update(demand.view, limits_, limited ? delta_.thresholdPx : demand.targetErrorPx);
+  expected_->update(request.view, limits_, limited ? delta_.thresholdPx : request.targetErrorPx);
 }
 
 } // namespace pointfront

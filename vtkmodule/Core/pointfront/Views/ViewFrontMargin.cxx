@@ -22,21 +22,21 @@ constexpr std::uint32_t mostMarginWalks = 16;
 
 /// Behind all that the view needs itself: what it will need if it goes on as it moves, and of a
 /// view that rests and is complete what lies around it. Still pictures have no next frame.
-void ViewFront::addMargin(const FrameRequest& demand)
+void ViewFront::addMargin(const FrameRequest& request)
 {
   const auto asked = static_cast<std::uint32_t>(delta_.requests.size());
   const std::uint32_t most = mostRequests - std::min(mostRequests, asked);
-  if (!demand.interacting && (!delta_.complete || demand.complete))
+  if (!request.interacting && (!delta_.complete || request.complete))
   {
-    margin_.rest(demand.view);
+    margin_.rest(request.view);
     return;
   }
-  marginWalks_ += demand.interacting ? 0 : 1;
-  const std::vector<LoadRequest>& margin = demand.interacting
+  marginWalks_ += request.interacting ? 0 : 1;
+  const std::vector<LoadRequest>& margin = request.interacting
     ? margin_.ahead(
-        demand.view, delta_.thresholdPx, share_.residency(), framesAhead, most, demand.layers)
+        request.view, delta_.thresholdPx, share_.residency(), framesAhead, most, request.layers)
     : margin_.around(
-        demand.view, delta_.thresholdPx, share_.residency(), marginAtRest, most, demand.layers);
+        request.view, delta_.thresholdPx, share_.residency(), marginAtRest, most, request.layers);
   delta_.requests.insert(delta_.requests.end(), margin.begin(), margin.end());
 }
 

@@ -90,7 +90,7 @@ class Collections(ToolTest):
             for name in ("address", "stores"):
                 alike = self.succeed("compare", self.folder / "epoch.png",
                                      self.folder / f"{name}.png", "--json").json
-                self.assertGreater(alike["psnr"], 40, (year, name, alike))
+                self.assertGreater(alike["psnr"] or 99, 40, (year, name, alike))  # null: equal
             texts = [sorted((self.folder / f"{name}.xyz").read_text().split("\n"))
                      for name in ("epoch", "address", "stores")]
             self.assertEqual(texts[0], texts[1])

@@ -12,8 +12,8 @@ namespace
 /// carry in 48 bits. The last quarter and half are for pages for which too few were set aside.
 constexpr NodeIndex mostNodes = NodeIndex(1) << 31;
 constexpr NodeIndex nodesSetAside = mostNodes / 4 * 3;
-constexpr std::uint64_t mostPoints = std::uint64_t(1) << 48;
-constexpr std::uint64_t pointsSetAside = mostPoints / 2;
+constexpr std::uint64_t pointNumbers = std::uint64_t(1) << 48;
+constexpr std::uint64_t pointsSetAside = pointNumbers / 2;
 
 /// Gives so many numbers: of its own, or else of the further ones. False: there are too few.
 template <typename Numbers, typename Count>
@@ -49,7 +49,7 @@ ForeignPages::ForeignPages(ForeignPageRows first)
   const auto count = static_cast<NodeIndex>(first.rows.size());
   nodeCount_ = whole ? count : mostNodes;
   furtherNodes_ = { nodesSetAside, mostNodes };
-  furtherPoints_ = { pointsSetAside, mostPoints };
+  furtherPoints_ = { pointsSetAside, pointNumbers };
   Page& page = pages_.emplace_back();
   page.nodes = { 1, whole ? std::max<NodeIndex>(count, 1) : nodesSetAside };
   page.ids = { 0, whole ? first.points : pointsSetAside };

@@ -65,10 +65,10 @@ bool vtkPointFrontConvertSelection::NameWhatIsSelected(
     controller ? controller->GetNumberOfProcesses() : 1, 0);
   vtkDataSet* points = vtkDataSet::SafeDownCast(extract->GetOutputDataObject(0));
   vtkDataArray* ids = points ? points->GetPointData()->GetArray("point_id") : nullptr;
-  vtkNew<vtkIdTypeArray> named;
+  vtkNew<vtkIdTypeArray> pointIds;
   if (ids)
   {
-    named->DeepCopy(ids);
+    pointIds->DeepCopy(ids);
   }
   else if (extract->GetErrorCode() != 0)
   {
@@ -82,7 +82,7 @@ bool vtkPointFrontConvertSelection::NameWhatIsSelected(
   vtkNew<vtkSelectionNode> node;
   node->SetContentType(vtkSelectionNode::GLOBALIDS);
   node->SetFieldType(vtkSelectionNode::POINT);
-  node->SetSelectionList(named);
+  node->SetSelectionList(pointIds);
   output->AddNode(node);
   return true;
 }

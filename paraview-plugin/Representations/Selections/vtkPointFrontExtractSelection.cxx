@@ -44,8 +44,8 @@ vtkStandardNewMacro(vtkPointFrontExtractSelection);
 namespace
 {
 
-/// Ranks of the points that a selection names, whoever's they are.
-void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* named)
+/// Ids of the points that a selection names, whoever's they are.
+void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* pointIds)
 {
   for (unsigned int i = 0; i < selection->GetNumberOfNodes(); ++i)
   {
@@ -56,7 +56,7 @@ void appendNamedPoints(vtkSelection* selection, vtkIdTypeArray* named)
     const bool named = node->GetContentType() == vtkSelectionNode::GLOBALIDS || values;
     if (ids && named && node->GetFieldType() == vtkSelectionNode::POINT)
     {
-      named->InsertTuples(named->GetNumberOfTuples(), ids->GetNumberOfTuples(), 0, ids);
+      pointIds->InsertTuples(pointIds->GetNumberOfTuples(), ids->GetNumberOfTuples(), 0, ids);
     }
   }
 }
@@ -229,8 +229,8 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
     further->SetFieldData(overview->GetFieldData());
     return further;
   }
-  vtkNew<vtkIdTypeArray> named;
-  appendNamedPoints(selection, named);
+  vtkNew<vtkIdTypeArray> pointIds;
+  appendNamedPoints(selection, pointIds);
   bool read = true;
   if (const double* corners = pointfront::frustumOf(selection))
   {
@@ -239,9 +239,9 @@ vtkSmartPointer<vtkPolyData> vtkPointFrontExtractSelection::GetCandidates(
     { return pointfront::mayOverlap(corners, sides, bounds); };
     read = reader->ReadRegion(overlaps, mostPoints, piece, pieces, further);
   }
-  else if (named->GetNumberOfTuples() > 0)
+  else if (pointIds->GetNumberOfTuples() > 0)
   {
-    read = reader->ReadPoints(named, piece, pieces, further);
+    read = reader->ReadPoints(pointIds, piece, pieces, further);
   }
   return read ? joined(overview, further) : nullptr; // the reader has said why
 }

@@ -4,16 +4,16 @@ import concurrent.futures
 import json
 import os
 import pathlib
+import shutil
 import signal
 import socket
 import subprocess
 import sys
-import time
 import unittest
 
 from documents import STADIUM
 from pictures import read_png
-from tool import SLOWNESS, TOOL, ToolTest
+from tool import SLOWNESS, TOOL, WORK, ToolTest, pointfront
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
 
@@ -25,6 +25,8 @@ from slow_line import SlowLine
 
 HERE = "127.0.0.1"
 SECRET = "sig=VERY-SECRET"
+SHARED = WORK / "shared"
+HANGS = 300 * SLOWNESS  # seconds, which no run takes that ends at all
 
 
 def environment(**more):
@@ -34,11 +36,24 @@ def environment(**more):
     return {**clean, "HOME": "/nonexistent", "POINTFRONT_CACHE": "off", **more}
 
 
+def setUpModule():  # pylint: disable=invalid-name
+    """The store of all tests and its points are made once."""
+    shutil.rmtree(SHARED, ignore_errors=True)
+    SHARED.mkdir(parents=True)
+    unittest.addModuleCleanup(shutil.rmtree, SHARED, ignore_errors=True)
+    for command in (("build", STADIUM, "-o", SHARED / "cloud.pfront"),
+                    ("export", SHARED / "cloud.pfront", "-o", SHARED / "points.csv")):
+        made = pointfront(*command)
+        if made.status != 0:
+            raise AssertionError(made)
+
+
 class RemoteTest(ToolTest):
     def setUp(self):
         super().setUp()
-        self.store = self.build(STADIUM)
-        self.expected = self.points(self.store)
+        self.store = self.folder / "cloud.pfront"
+        shutil.copyfile(SHARED / "cloud.pfront", self.store)
+        self.expected = (SHARED / "points.csv").read_bytes()
         self.server = FarServer(self.folder)
         self.server.__enter__()
         self.addCleanup(self.server.__exit__)
@@ -60,11 +75,10 @@ class RemoteTest(ToolTest):
                          self.expected, mode)
 
     def assert_refused(self, weather, *words, name="cloud.pfront", **more):
-        """An error that says why, in time, without secrets; and nothing is written."""
+        """An error that says why, without secrets; and nothing is written."""
         out = self.folder / f"no-{weather}-{name}.csv"
         outcome = self.refuse(1, "export", f"{self.address(weather, name)}?{SECRET}", "-o", out,
-                              environment=environment(POINTFRONT_REMOTE_TIMEOUT="3", **more))
-        self.assertLess(outcome.seconds, 30 * SLOWNESS, weather)
+                              environment=environment(**more), limit=HANGS)
         for word in words:
             self.assertIn(word, outcome.err, weather)
         self.assertNotIn("VERY-SECRET", outcome.err)
@@ -244,22 +258,37 @@ class BadWeather(RemoteTest):
                 self.assert_served(weather)
 
     def test_faults_that_stay(self):
-        lasting = (
-                ("forbidden", "403"), ("storms", "503"), ("tomorrow", "503"), ("resets",),
-                ("stalls",), ("trickle", "1 KiB a second"), ("short",), ("long", "wrongly"),
-                ("elsewhere", "wrongly"),
+        """Answers that say what is wrong: the limit of time is the tool's own, a minute."""
+        for case in (
+                ("forbidden", "403"), ("long", "wrongly"), ("elsewhere", "wrongly"),
                 ("replaced", "changed"), ("replaced_deaf", "changed"),
                 ("replaced_dated", "changed"), ("replaced_longer", "changed"),
                 ("expired", "403"), ("circle", "redirected"), ("to_file", "redirected"),
-                ("gzipped", "compressed"), ("endless",), ("endless_whole",), ("lying",), ("huge",),
-                ("headers",))
-        with concurrent.futures.ThreadPoolExecutor(8) as several:  # they wait most of the time
-            list(several.map(lambda case: self.assert_refused(*case), lasting))
+                ("gzipped", "compressed"), ("lying", "Content-Range"), ("huge", "wrongly")):
+            self.assert_refused(*case)
         self.assert_refused("", "404", name="missing.pfront")
 
+    def test_bodies_without_end(self):
+        """What goes on being sent keeps the server busy: nothing else is asked of it."""
+        for case in (("endless", "wrongly"), ("endless_whole", "64 MiB"), ("headers", "wrongly")):
+            self.assert_refused(*case)
+
+    def test_silence_that_stays(self):
+        """What the limit of time ends: all at once, since they wait. A machine that is busy answers
+        within the longer limit, where the test asks what the answer was."""
+        seconds = {"storms": 12, "tomorrow": 12, "trickle": 12, "resets": 3, "stalls": 3,
+                   "short": 3}
+        words = {"storms": "503", "tomorrow": "503", "trickle": "1 KiB a second"}
+        with concurrent.futures.ThreadPoolExecutor(len(seconds)) as several:
+            list(several.map(
+                lambda weather: self.assert_refused(
+                    weather, "at the moment", words.get(weather, ""),
+                    POINTFRONT_REMOTE_TIMEOUT=str(seconds[weather])), seconds))
+
     def test_a_slow_line_is_waited_for_while_bytes_come(self):
-        """The time limit is one of silence: one body takes three times as long."""
-        seconds, limit = 2.5, 1.5  # head and tail are asked for at once: twice the file
+        """The time limit is one of silence: one body takes longer than two limits. A busy machine
+        is silent for a second, not for five."""
+        seconds, limit = 6, 5  # head and tail are asked for at once: twice the file
         bits = 8 * self.store.stat().st_size / seconds
         with SlowLine(self.server.port, 0.02, bits) as line:
             out = self.folder / "slow.csv"
@@ -272,18 +301,15 @@ class BadWeather(RemoteTest):
     def test_a_signal_ends_the_wait_for_a_silent_server(self):
         out = self.folder / "never.csv"
         with socket.create_server((HERE, 0)) as silent:
-            silent.settimeout(20 * SLOWNESS)
+            silent.settimeout(HANGS)
             port = silent.getsockname()[1]
             with subprocess.Popen([TOOL, "export", f"http://{HERE}:{port}/a.pfront", "-o", out],
                                   env=environment(), stderr=subprocess.PIPE) as tool:
                 with silent.accept()[0] as connection:
                     connection.recv(65536)
-                    begin = time.monotonic()
                     tool.send_signal(signal.SIGINT)
-                    status = tool.wait()
-                    seconds = time.monotonic() - begin
-        self.assertEqual(status, 130)
-        self.assertLess(seconds, 1.0 * SLOWNESS)  # 60, and status 1, before
+                    status = tool.wait(HANGS)
+        self.assertEqual(status, 130)  # after a minute of silence it would be 1
         self.assertFalse(out.exists())
 
     def test_a_query_takes_round_trips_by_groups_of_nodes(self):
@@ -292,13 +318,9 @@ class BadWeather(RemoteTest):
         nodes = self.succeed("info", small, "--json").json["nodes"]
         expected = self.points(small)
         self.server.requests.clear()
-        with SlowLine(self.server.port, 0.05, 100e6) as line:
-            out = self.folder / "far.csv"
-            outcome = self.succeed("export", f"http://{HERE}:{line.port}/small.pfront", "-o", out,
-                                   environment=environment())
-        self.assertEqual(out.read_bytes(), expected)
+        self.assertEqual(self.points(self.address("", "small.pfront"), environment=environment()),
+                         expected)
         self.assertLess(len(self.server.requests), nodes / 10)
-        self.assertLess(outcome.seconds, nodes * 0.05 / 2)  # one node after the other: more
 
     def test_a_certificate_that_nobody_vouches_for(self):
         own = self.folder / "own.pem"

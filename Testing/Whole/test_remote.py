@@ -269,12 +269,12 @@ class BadWeather(RemoteTest):
         self.assert_refused("", "404", name="missing.pfront")
 
     def test_bodies_without_end(self):
-        """What goes on being sent keeps the server busy: nothing else is asked of it."""
+        """Bodies that go on keep the server busy: nothing else is asked of it."""
         for case in (("endless", "wrongly"), ("endless_whole", "64 MiB"), ("headers", "wrongly")):
             self.assert_refused(*case)
 
     def test_silence_that_stays(self):
-        """What the limit of time ends: all at once, since they wait. A machine that is busy answers
+        """The limit of time ends these: all at once, since they wait. A busy machine answers
         within the longer limit, where the test asks what the answer was."""
         seconds = {"storms": 12, "tomorrow": 12, "trickle": 12, "resets": 3, "stalls": 3,
                    "short": 3}

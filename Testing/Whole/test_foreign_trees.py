@@ -34,7 +34,7 @@ class ForeignTrees(ToolTest):
         cls.copc = write_copc(cls.trees / "tree.copc.laz", LEVELS, STEP)
         cls.environment = {name: value for name, value in os.environ.items()
                            if "proxy" not in name.lower()}
-        cls.environment.update(POINTFRONT_CACHE="off", POINTFRONT_REMOTE_TIMEOUT="3")
+        cls.environment.update(POINTFRONT_CACHE="off")
 
     @classmethod
     def tearDownClass(cls):

@@ -31,7 +31,7 @@ class VirtualClouds(ToolTest):
         self.list = write_tiles(self.copc, self.folder, SIDE, STEP)
         self.environment = {name: value for name, value in os.environ.items()
                             if "proxy" not in name.lower()}
-        self.environment.update(POINTFRONT_CACHE="off", POINTFRONT_REMOTE_TIMEOUT="3")
+        self.environment.update(POINTFRONT_CACHE="off")
 
     def points(self, cloud, *options):
         out = self.folder / "points.csv"

@@ -8,6 +8,7 @@ build this one may be (sanitizers).
 import json
 import os
 import pathlib
+import resource
 import shutil
 import struct
 import subprocess
@@ -24,13 +25,16 @@ SLOWNESS = float(os.environ.get("POINTFRONT_SLOWNESS", "1"))
 
 
 class Outcome:
-    """The end of one run of a program: its status and what it printed."""
+    """The end of one run of a program: its status and what it printed; the seconds that passed, and
+    those of processors, which do not depend on what else the machine does (where the script runs
+    one program at a time)."""
 
-    def __init__(self, finished, seconds):
+    def __init__(self, finished, seconds, processor_seconds):
         self.status = finished.returncode
         self.out = finished.stdout.decode()
         self.err = finished.stderr.decode()
         self.seconds = seconds
+        self.processor_seconds = processor_seconds
 
     @property
     def json(self):
@@ -40,8 +44,14 @@ class Outcome:
         return f"status {self.status}\nstdout: {self.out}\nstderr: {self.err}"
 
 
+def spent_by_children():
+    """Processor seconds of all programs that this one has waited for."""
+    used = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return used.ru_utime + used.ru_stime
+
+
 def run(program, *arguments, environment=None, limit=800):
-    begin = time.monotonic()
+    begin, before = time.monotonic(), spent_by_children()
     finished = subprocess.run(
         [str(program), *map(str, arguments)],
         stdin=subprocess.DEVNULL,
@@ -50,7 +60,7 @@ def run(program, *arguments, environment=None, limit=800):
         timeout=limit,
         check=False,
     )
-    return Outcome(finished, time.monotonic() - begin)
+    return Outcome(finished, time.monotonic() - begin, spent_by_children() - before)
 
 
 def pointfront(*arguments, **options):

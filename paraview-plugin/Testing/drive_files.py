@@ -102,7 +102,7 @@ def far(programs):
     """A cloud by its address, in the application and on a server with two ranks; a list of it."""
     for name in [name for name in os.environ if name.lower().endswith("_proxy")]:
         del os.environ[name]
-    os.environ["POINTFRONT_CACHE"], os.environ["POINTFRONT_REMOTE_TIMEOUT"] = "off", "5"
+    os.environ["POINTFRONT_CACHE"] = "off"
     with served(os.getcwd()) as origin:
         address = origin + "/cloud.pfront?sig=SECRET"
         with open("far.pfronts", "w") as listed:

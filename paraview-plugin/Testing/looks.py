@@ -164,11 +164,12 @@ for name, change in (("Where", "scan_angle < 5"), ("Where", "user_data < 200 and
         display.Where = change
     else:
         scene.color_by(display, change)
-    for attempt in range(200):
-        scene.view.SMProxy.StillRender()
-        if scene.frame()[1]:
-            break
+    hangs = time.monotonic() + 300
+    scene.view.SMProxy.StillRender()
+    while not scene.frame()[1]:
+        require(time.monotonic() < hangs, "%s %s: not complete" % (name, change))
         time.sleep(0.02)
+        scene.view.SMProxy.StillRender()
     found = pictures.shown(scene.view)
     time.sleep(0.5)
     scene.view.SMProxy.StillRender()

@@ -19,7 +19,7 @@ import urllib.request
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 sys.path.insert(0, str(ROOT / "Testing/Support"))
 # pylint: disable=wrong-import-position
-from far_setting import HERE, SECRET
+from far_setting import HERE, LIMIT_SECONDS, SECRET
 import numpy
 import pointfront
 from far_server import FarServer
@@ -136,7 +136,7 @@ class Addresses(unittest.TestCase):
 
     def test_an_interrupt_ends_the_wait_for_a_silent_server(self):
         with socket.create_server((HERE, 0)) as silent:
-            silent.settimeout(20)
+            silent.settimeout(120)
             seconds = []
 
             def interrupt():
@@ -144,7 +144,7 @@ class Addresses(unittest.TestCase):
                     connection.recv(65536)
                     seconds.append(time.monotonic())
                     os.kill(os.getpid(), signal.SIGINT)
-                    ended.wait(20)
+                    ended.wait(120)
 
             ended = threading.Event()
             thread = threading.Thread(target=interrupt)
@@ -154,7 +154,7 @@ class Addresses(unittest.TestCase):
             seconds.append(time.monotonic())
             ended.set()
             thread.join()
-        self.assertLess(seconds[1] - seconds[0], 1.0)  # 3, the time limit, before
+        self.assertLess(seconds[1] - seconds[0], LIMIT_SECONDS / 2)  # it does not wait for that
 
     def test_errors_are_raised_without_secrets(self):
         for weather, words in (("~forbidden/", "403"), ("none/", "404"), ("~gzipped/", "compress")):

@@ -53,6 +53,7 @@ private:
   bool tiles_ = false;
   std::string tileEdge_ = "auto";
   std::string only_; ///< a step of a build of tiles; empty: all
+  std::string decode_ = "auto"; ///< once, twice
 };
 
 /// The keys of `build --json`; with `skips` also those of inputs that were left out.

@@ -121,9 +121,9 @@ OrderedJson MosaicPlan::json() const
   object["inputs"] = OrderedJson::array();
   for (const PlannedInput& input : inputs)
   {
-    object["inputs"].push_back(
-      { { "path", input.path }, { "identity", input.identity }, { "kind", input.kind },
-        { "representative", input.representative }, { "missing", input.missing } });
+    object["inputs"].push_back({ { "path", input.path }, { "identity", input.identity },
+      { "kind", input.kind }, { "representative", input.representative },
+      { "missing", input.missing }, { "kept", input.kept } });
   }
   object["skipped"] = skippedJsonOf(skipped);
   return object;
@@ -140,7 +140,7 @@ MosaicPlan MosaicPlan::of(const Json& json)
   for (const Json& one : json.at("inputs"))
   {
     plan.inputs.push_back({ one.at("path"), one.at("identity"), one.at("kind"),
-      one.at("representative"), one.at("missing") });
+      one.at("representative"), one.at("missing"), one.at("kept") });
   }
   plan.skipped = skippedOf(json.at("skipped"));
   return plan;
@@ -155,6 +155,7 @@ OrderedJson MosaicTiles::json() const
   object["ground"] = ground;
   object["extent"] = extent;
   object["points_read"] = read;
+  object["kept_bytes"] = keptBytes;
   object["points_rejected"] = rejected;
   object["inputs"] = OrderedJson::array();
   for (const SettledInput& input : inputs)
@@ -174,6 +175,7 @@ MosaicTiles MosaicTiles::of(const Json& json)
   tiles.ground = json.at("ground");
   tiles.extent = json.at("extent");
   tiles.read = json.at("points_read");
+  tiles.keptBytes = json.at("kept_bytes");
   tiles.rejected = json.at("points_rejected").get<std::map<std::string, std::uint64_t>>();
   for (const Json& one : json.at("inputs"))
   {
@@ -190,6 +192,7 @@ OrderedJson SurveyRecord::json() const
   object["version"] = version;
   object["key"] = key;
   object["points_read"] = survey.read;
+  object["kept_bytes"] = keptBytes;
   object["points_rejected"] = survey.rejected;
   object["classes"] = survey.classes.to_string();
   object["largest_colour"] = survey.largestColour;
@@ -207,6 +210,7 @@ SurveyRecord SurveyRecord::of(const Json& json)
   SurveyRecord record;
   record.key = json.at("key");
   record.survey.read = json.at("points_read");
+  record.keptBytes = json.at("kept_bytes");
   record.survey.rejected = json.at("points_rejected").get<std::map<std::string, std::uint64_t>>();
   record.survey.classes = std::bitset<256>(json.at("classes").get<std::string>());
   record.survey.largestColour = json.at("largest_colour");

@@ -27,6 +27,7 @@ struct PlannedInput
   std::string kind; ///< attributes, grid and system: equal for inputs that have the same
   bool representative = false; ///< the first of its kind
   std::uint64_t missing = 0; ///< points that its header promises and the file lacks
+  bool kept = false; ///< its survey keeps the points for the tiles
 };
 
 /// work/plan.json: what is to be built of what.
@@ -58,6 +59,7 @@ struct MosaicTiles
   bool ground = false; ///< a point is of class 2
   double extent = 0.0; ///< margins of so many units take in all
   std::uint64_t read = 0;
+  std::uint64_t keptBytes = 0; ///< points that surveys kept
   std::map<std::string, std::uint64_t> rejected;
   std::vector<SettledInput> inputs; ///< as the plan's
   std::vector<std::pair<std::string, std::string>> skipped; ///< path, why
@@ -72,6 +74,7 @@ struct SurveyRecord
 {
   std::string key; ///< hash: the input and how it was read
   InputSurvey survey;
+  std::uint64_t keptBytes = 0; ///< points of the input, for the tiles
 
   nlohmann::ordered_json json() const;
   static SurveyRecord of(const nlohmann::json& json);

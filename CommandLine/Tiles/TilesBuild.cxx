@@ -182,7 +182,7 @@ void TilesBuild::tellWarnings(const std::vector<TileRecord>& records) const
   tell(findings, " and its margin", " and their margins");
 }
 
-/// Tiles that are no part any more, and what killed processes left.
+/// Tiles that are no part any more, points that were kept, and what killed processes left.
 void TilesBuild::removeOthers(const std::vector<TileRecord>& records) const
 {
   std::set<std::string> kept;
@@ -201,7 +201,7 @@ void TilesBuild::removeOthers(const std::vector<TileRecord>& records) const
     {
       const std::string name = entry.path().filename().string();
       const bool tile = folder == std::string("/tiles") || name.rfind("tile-", 0) == 0;
-      if (tile && kept.count(name) == 0)
+      if ((tile && kept.count(name) == 0) || name.rfind("points-", 0) == 0)
       {
         std::error_code ignored;
         fs::remove(entry.path(), ignored);
@@ -265,6 +265,7 @@ Result<TilesReport> TilesBuild::collect()
   std::vector<TileRecord> records;
   report.sums.pointsRead = tiles_->read;
   report.sums.pointsRejected = tiles_->rejected;
+  report.sums.spilledBytes = tiles_->keptBytes;
   for (const auto& [path, why] : tiles_->skipped)
   {
     report.sums.inputsSkipped.push_back({ path, why });

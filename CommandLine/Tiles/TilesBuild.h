@@ -5,6 +5,7 @@
 
 #include "pointfront/Build/OpenedInputs.h"
 #include "pointfront/Build/StoreBuilder.h"
+#include "pointfront/Mosaic/KeptPoints.h"
 #include "pointfront/Mosaic/TileBuild.h"
 #include "pointfront/Points/PassChoice.h"
 
@@ -17,6 +18,14 @@
 namespace pointfront
 {
 
+/// How often inputs are decoded.
+enum class Decoding
+{
+  Automatic, ///< once where that is slow and the disk has room for the points
+  Once, ///< surveys keep the points below FOLDER/work until the tiles are built
+  Twice ///< for the survey and for the tiles
+};
+
 /// The wishes of who says `build --tiles`.
 struct TilesRequest
 {
@@ -26,6 +35,7 @@ struct TilesRequest
   nlohmann::json settings; ///< the options that decide about the result
   BuildOptions options; ///< options of each tile; without its output
   bool automaticLayers = true;
+  Decoding decoding = Decoding::Automatic;
   PassChoice passes;
   const PointFileOpener* formats = nullptr;
   /// Finds and opens all inputs, and warns of what is wrong with them.
@@ -70,6 +80,7 @@ private:
   std::string work(const std::string& name) const { return request_.folder + "/work/" + name; }
   std::string surveyPath(std::size_t input) const;
   std::string tilePath(const TileIndex& tile) const;
+  std::string keptPath(std::size_t input) const;
   Result<void> loadPlan();
   Result<void> loadTiles();
   Result<std::vector<PlannedInput>> plannedInputs(const PointSources& sources) const;
@@ -77,7 +88,10 @@ private:
   Result<double> chosenEdge(const PointSources& sources) const;
   std::string surveyKey(std::size_t input) const;
   bool surveyed(std::size_t input) const;
-  Result<InputSurvey> readSurvey(std::size_t input, const ProgressFunction& progress) const;
+  std::vector<bool> keptInputs(const PointSources& sources) const;
+  void tellNotKept(const Error& why, std::size_t input) const;
+  std::shared_ptr<PointKeeper> keeperOf(std::size_t input, const PointSource& source) const;
+  Result<SurveyRecord> readSurvey(std::size_t input, const ProgressFunction& progress) const;
   Result<void> surveyNow(std::size_t input, const ProgressFunction& progress) const;
   Result<void> addToTiles(std::size_t input, const InputSurvey& survey, MosaicTiles& tiles,
     std::vector<Error>& faults) const;

@@ -38,6 +38,12 @@ void BuildCommand::declareTiles()
     ->type_name("METRES|auto")
     ->needs(tiles);
   app_
+    ->add_option("--decode", decode_,
+      "once: points wait decoded below OUT/work until the tiles are built; twice: inputs are read "
+      "for the survey and for the tiles; auto: once where decoding is slow and the disk has room")
+    ->check(CLI::IsMember({ "auto", "once", "twice" }))
+    ->needs(tiles);
+  app_
     ->add_option(
       "--only", only_, "One step of a build of tiles, for programs that run them in many processes")
     ->check([](const std::string& text) { return checkStep(text); })
@@ -49,7 +55,8 @@ nlohmann::json BuildCommand::tileSettings() const
 {
   // These do not decide about the bytes, or are told apart otherwise.
   static const std::set<std::string> free = { "--output", "--memory", "--threads", "--temp",
-    "--force", "--progress", "--preview", "--json", "--tiles", "--only", "--help", "--on-error" };
+    "--force", "--progress", "--preview", "--json", "--tiles", "--only", "--decode", "--help",
+    "--on-error" };
   nlohmann::json settings = nlohmann::json::object();
   for (const CLI::Option* option : app_->get_options())
   {
@@ -86,6 +93,9 @@ Result<void> BuildCommand::buildTiles()
   request.settings = tileSettings();
   request.options = options_;
   request.automaticLayers = options_.layering == Layering::Automatic;
+  request.decoding = decode_ == "once" ? Decoding::Once
+    : decode_ == "twice"               ? Decoding::Twice
+                                       : Decoding::Automatic;
   request.passes = choice;
   request.formats = &formats;
   request.openAll = [this] { return openSources(); };

@@ -24,6 +24,21 @@ std::vector<std::string> findingsOf(const AttributePasses& passes)
   return all;
 }
 
+/// The most that the tile or one of the eight beside it has.
+std::uint64_t mostPointsAround(const MosaicTiles& tiles, const TileIndex& tile)
+{
+  std::uint64_t most = 0;
+  for (const std::int64_t x : { tile.x - 1, tile.x, tile.x + 1 })
+  {
+    for (const std::int64_t y : { tile.y - 1, tile.y, tile.y + 1 })
+    {
+      const auto found = tiles.tiles.find({ x, y });
+      most = std::max(most, found != tiles.tiles.end() ? found->second : 0);
+    }
+  }
+  return most;
+}
+
 std::optional<TileIndex> tileNamed(const MosaicTiles& tiles, const std::string& name)
 {
   for (const auto& [tile, points] : tiles.tiles)
@@ -118,6 +133,7 @@ Result<TileInputs> TilesBuild::inputsIn(const Bounds& box) const
       return source.error();
     }
     std::vector<std::uint64_t> chunks;
+    std::vector<std::uint64_t> hashes;
     if (here)
     {
       const std::vector<SurveyedChunk>& known = next->second.survey.chunks;
@@ -132,13 +148,16 @@ Result<TileInputs> TilesBuild::inputsIn(const Bounds& box) const
         if (!known[chunk].bounds.empty() && known[chunk].bounds.overlaps(box))
         {
           chunks.push_back(chunk);
+          hashes.push_back(known[chunk].hash);
         }
       }
+      *source = fromKept(std::move(*source), keptPath(i), next->second.key);
       ++next;
     }
     inputs.sources.push_back(
       here ? std::move(*source) : std::make_unique<EmptySource>((*source)->description()));
     inputs.chunks.push_back(std::move(chunks));
+    inputs.hashes.push_back(std::move(hashes));
     inputs.deepColours.push_back(tiles_->inputs[i].deep);
   }
   return inputs;
@@ -211,7 +230,7 @@ Result<void> TilesBuild::buildNow(const TileIndex& tile, const ProgressFunction&
   TileTask task;
   task.grid = plan_->grid;
   task.tile = tile;
-  task.margin = firstMargin(*passes, plan_->grid.edge, tiles_->tiles.at(tile));
+  task.margin = firstMargin(*passes, plan_->grid.edge, mostPointsAround(*tiles_, tile));
   task.rim = rim();
   task.cloudExtent = tiles_->extent;
   task.inputs = [&](double margin) { return inputsIn(plan_->grid.box(tile, margin)); };

@@ -127,7 +127,7 @@ Result<PointSources> HeightAboveGroundPass::aboveLowest(
     for (std::size_t i = 0; i < batch.size(); ++i)
     {
       near.clear();
-      if (hasPlace(batch.positions[i]))
+      if (hasPlace(batch.positions[i]) && (known == nullptr || known->wants(batch.positions[i])))
       {
         list.begin(ground->places);
         ground->index.search(batch.positions[i], list);

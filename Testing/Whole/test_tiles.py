@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from tool import SLOWNESS, TOOL, ToolTest, write_las
+from tool import SLOWNESS, TOOL, ToolTest, pointfront, write_las
 
 POINTS = 60000 if SLOWNESS == 1 else 15000
 EDGE = "40"  # metres; the land is some 80 m wide
@@ -213,6 +213,53 @@ class Restart(ToolTest):
         small.unlink()
         fewer = self.succeed(*self.arguments("land")).json
         self.assertLess(fewer["points_stored"], made["points_stored"])
+
+    def surveyed(self, name, *options):
+        """Does the steps before the tiles; gives the names of these."""
+        step = lambda only: self.succeed(*self.arguments(name, *options, "--only", only))
+        step("plan")
+        plan = json.loads((self.folder / name / "work/plan.json").read_text())
+        for number in range(len(plan["inputs"])):
+            step(f"survey:{number}")
+        step("settle")
+        tiles = json.loads((self.folder / name / "work/tiles.json").read_text())["tiles"]
+        return [f"tile:{x}_{y}" for x, y, _ in tiles]
+
+    def test_a_tile_that_failed_is_built_when_its_input_is_mended(self):
+        tiles = self.surveyed("land")
+        part = self.inputs / "part_1.las"
+        whole = part.read_bytes()
+        part.write_bytes(whole[:len(whole) // 2] + bytes(len(whole) - len(whole) // 2))
+        ends = [pointfront(*self.arguments("land", "--only", tile)) for tile in tiles]
+        failed = [end for end in ends if end.status != 0]
+        self.assertTrue(failed, "points that were not surveyed are in a tile")
+        for end in failed:
+            self.assertIn("part_1.las", end.err)
+            self.assertIn("has changed since it was surveyed", end.err)
+        part.write_bytes(whole)
+        done = self.succeed(*self.arguments("land")).json
+        self.assertEqual(done["tiles_built"], len(failed))
+        self.succeed(*self.arguments("fresh"))
+        self.assertEqual(tree(self.folder / "land"), tree(self.folder / "fresh"))
+
+    def test_points_that_are_kept_give_the_same_bytes(self):
+        self.succeed(*self.arguments("twice", "--decode", "twice"))
+        told = self.succeed(*self.arguments("once", "--decode", "once")).json
+        self.assertGreater(told["spilled_bytes"], 12 * told["points_stored"])
+        self.assertEqual(tree(self.folder / "once"), tree(self.folder / "twice"))
+        self.assertFalse(list((self.folder / "once/work").glob("points-*")))
+        # Tiles find them in another process, and do without those that are damaged or cut short.
+        tiles = self.surveyed("steps", "--decode", "once")
+        kept = sorted((self.folder / "steps/work").glob("points-*.kept"))
+        self.assertGreater(len(kept), 3)
+        damaged = bytearray(kept[0].read_bytes())
+        damaged[len(damaged) // 3] ^= 1
+        kept[0].write_bytes(damaged)
+        kept[1].write_bytes(kept[1].read_bytes()[:-9])
+        for tile in tiles:
+            self.succeed(*self.arguments("steps", "--decode", "once", "--only", tile))
+        self.succeed(*self.arguments("steps", "--decode", "once", "--only", "collect"))
+        self.assertEqual(tree(self.folder / "steps"), tree(self.folder / "twice"))
 
     def test_steps_of_several_processes_give_the_same_bytes(self):
         self.succeed(*self.arguments("whole"))

@@ -23,17 +23,6 @@ Rejection reasonOf(const glm::dvec3& p)
                                                                : Rejection::OutsideGrid;
 }
 
-std::uint64_t hashOf(const PointBatch& batch)
-{
-  std::uint64_t hash = contentHash(reinterpret_cast<const std::byte*>(batch.positions.data()),
-    batch.positions.size() * sizeof(glm::dvec3));
-  for (const std::vector<std::byte>& column : batch.columns)
-  {
-    hash = contentHash(column.data(), column.size(), hash);
-  }
-  return hash;
-}
-
 /// The survey of one thread's chunks, and what it works with.
 class SurveyShare
 {
@@ -57,7 +46,7 @@ public:
       return makeError(Error::Kind::BadFormat,
         "'" + source_.description().path + "' gave more points than it announced");
     }
-    surveyed.hash = hashOf(batch_);
+    surveyed.hash = hashOfPoints(batch_);
     readClasses(source_.description().schema, batch_, classes_);
     for (std::size_t i = 0; i < batch_.size(); ++i)
     {
@@ -128,6 +117,17 @@ void merge(const InputSurvey& share, InputSurvey& survey)
   survey.largestColour = std::max(survey.largestColour, share.largestColour);
 }
 } // namespace
+
+std::uint64_t hashOfPoints(const PointBatch& batch)
+{
+  std::uint64_t hash = contentHash(reinterpret_cast<const std::byte*>(batch.positions.data()),
+    batch.positions.size() * sizeof(glm::dvec3));
+  for (const std::vector<std::byte>& column : batch.columns)
+  {
+    hash = contentHash(column.data(), column.size(), hash);
+  }
+  return hash;
+}
 
 Bounds InputSurvey::bounds() const
 {

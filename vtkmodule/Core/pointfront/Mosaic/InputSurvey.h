@@ -33,6 +33,9 @@ struct InputSurvey
   Bounds bounds() const;
 };
 
+/// A hash of all values of the points: that of SurveyedChunk.
+std::uint64_t hashOfPoints(const PointBatch& batch);
+
 /// Reads all points of an input once, by all threads of the crew, which is told how far it is.
 /// Errors  those of the source; BadFormat: more points than announced; Cancelled.
 /// Order   the result does not depend on threads.

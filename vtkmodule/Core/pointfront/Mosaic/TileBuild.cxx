@@ -39,7 +39,7 @@ public:
     , margin_(margin)
     , progress_(progress)
     , options_(task.options)
-    , region_(task.grid.box(task.tile, 0.0), task.grid.box(task.tile, margin))
+    , region_(task.grid.ownBox(task.tile), task.grid.box(task.tile, margin))
   {
     resources_.memoryBytes = options_.memoryBytes;
     resources_.threads = options_.threads;

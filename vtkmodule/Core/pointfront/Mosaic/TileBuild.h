@@ -46,7 +46,8 @@ struct TileOutcome
 Result<TileOutcome> buildTile(const TileTask& task, const ProgressFunction& progress);
 
 /// World units around a tile that most of its points' nearest neighbours lie in: what a margin
-/// begins with. `points` of the tile; `reach` the largest finite reach() of the passes.
+/// begins with. `points`: the most that it or a tile beside it has, because a tile of few points
+/// finds its neighbours in the denser one beside it.
 double firstMargin(const AttributePasses& passes, double edge, std::uint64_t points);
 
 } // namespace pointfront

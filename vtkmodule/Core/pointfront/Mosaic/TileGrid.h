@@ -3,8 +3,10 @@
 #include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Infinity.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string>
 #include <tuple>
 
@@ -44,6 +46,15 @@ struct TileGrid
     box.high = { edge * static_cast<double>(tile.x + 1) + margin,
       edge * static_cast<double>(tile.y + 1) + margin, infinity };
     return box;
+  }
+
+  /// The box that has all points of the tile, wherever the rounding of of() puts those of its
+  /// faces.
+  Bounds ownBox(const TileIndex& tile) const
+  {
+    constexpr double rounding = 8.0 * std::numeric_limits<double>::epsilon();
+    const double farthest = 1.0 + static_cast<double>(std::max(std::abs(tile.x), std::abs(tile.y)));
+    return box(tile, rounding * edge * farthest);
   }
 
 private:

@@ -25,25 +25,56 @@ std::size_t bytesOfPoint(const AttributeSchema& schema)
   return sizeof(glm::dvec3) + schema.pointBytes();
 }
 
-void keepOf(
-  PointBatch& batch, const AttributeSchema& schema, const std::vector<std::uint32_t>& kept)
+/// The points of a batch that are kept, as runs: points that lie together come together.
+class KeptRuns
 {
-  for (std::size_t to = 0; to < kept.size(); ++to)
+public:
+  /// A point, in rising order.
+  void add(std::size_t point)
   {
-    batch.positions[to] = batch.positions[kept[to]];
-  }
-  batch.positions.resize(kept.size());
-  for (std::size_t c = 0; c < schema.size(); ++c)
-  {
-    const std::size_t bytes = schema[c].bytes();
-    std::byte* const column = batch.columns[c].data();
-    for (std::size_t to = 0; to < kept.size(); ++to)
+    if (runs_.empty() || runs_.back().begin + runs_.back().points != point)
     {
-      std::memmove(column + to * bytes, column + kept[to] * bytes, bytes);
+      runs_.push_back({ point, 0 });
     }
-    batch.columns[c].resize(kept.size() * bytes);
+    ++runs_.back().points;
+    ++points_;
   }
-}
+  std::size_t points() const { return points_; }
+
+  void leaveOnly(PointBatch& batch, const AttributeSchema& schema) const
+  {
+    if (points_ == batch.size())
+    {
+      return;
+    }
+    leave(reinterpret_cast<std::byte*>(batch.positions.data()), sizeof(glm::dvec3));
+    batch.positions.resize(points_);
+    for (std::size_t c = 0; c < schema.size(); ++c)
+    {
+      leave(batch.columns[c].data(), schema[c].bytes());
+      batch.columns[c].resize(points_ * schema[c].bytes());
+    }
+  }
+
+private:
+  struct Run
+  {
+    std::size_t begin = 0;
+    std::size_t points = 0;
+  };
+  void leave(std::byte* values, std::size_t bytes) const
+  {
+    std::byte* to = values;
+    for (const Run& run : runs_)
+    {
+      std::memmove(to, values + run.begin * bytes, run.points * bytes);
+      to += run.points * bytes;
+    }
+  }
+
+  std::vector<Run> runs_;
+  std::size_t points_ = 0;
+};
 
 /// The description of an input of which only some chunks are left, under new numbers.
 SourceDescription descriptionOf(const PointSource& source, const std::vector<std::uint64_t>& chunks,
@@ -80,8 +111,11 @@ public:
     const Piece& piece = pieces_[chunk];
     const AttributeSchema& schema = description_.schema;
     batch.resize(piece.points, schema);
-    std::vector<std::byte> bytes(piece.points * bytesOfPoint(schema));
-    if (Result<void> done = file_->read(piece.offset, bytes.data(), bytes.size()); !done)
+    thread_local std::vector<std::byte> bytes; // kept: new memory is cleared first
+    bytes.resize(std::max(bytes.size(), piece.points * bytesOfPoint(schema)));
+    if (Result<void> done =
+          file_->read(piece.offset, bytes.data(), piece.points * bytesOfPoint(schema));
+        !done)
     {
       return done;
     }
@@ -143,15 +177,15 @@ public:
     {
       return {};
     }
-    std::vector<std::uint32_t> kept;
+    KeptRuns kept;
     for (std::size_t i = 0; i < batch.size(); ++i)
     {
       if (grid_.of(batch.positions[i]) == tile_)
       {
-        kept.push_back(static_cast<std::uint32_t>(i));
+        kept.add(i);
       }
     }
-    keepOf(batch, description_.schema, kept);
+    kept.leaveOnly(batch, description_.schema);
     return {};
   }
 
@@ -192,8 +226,7 @@ public:
     {
       const auto [source, number] = places_[next];
       const std::uint64_t chunk = inputs_.chunks[source][number];
-      if (Result<void> done = cut(*inputs_.sources[source], chunk, batch, pieces_[source][number]);
-          !done)
+      if (Result<void> done = cut(source, number, batch); !done)
       {
         return done;
       }
@@ -205,13 +238,21 @@ public:
   std::vector<Piece>& pieces(std::size_t source) { return pieces_[source]; }
 
 private:
-  Result<void> cut(const PointSource& source, std::uint64_t chunk, PointBatch& batch, Piece& piece)
+  Result<void> cut(std::size_t input, std::size_t number, PointBatch& batch)
   {
-    if (Result<void> done = source.read(chunk, batch); !done)
+    const PointSource& source = *inputs_.sources[input];
+    Piece& piece = pieces_[input][number];
+    if (Result<void> done = source.read(inputs_.chunks[input][number], batch); !done)
     {
       return done;
     }
-    std::vector<std::uint32_t> kept;
+    if (hashOfPoints(batch) != inputs_.hashes[input][number])
+    {
+      return makeError(Error::Kind::Corrupt,
+        source.description().path +
+          ": has changed since it was surveyed; run the same command again");
+    }
+    KeptRuns kept;
     for (std::size_t i = 0; i < batch.size(); ++i)
     {
       const glm::dvec3& p = batch.positions[i];
@@ -222,14 +263,15 @@ private:
       const bool own = grid_.of(p) == tile_;
       if (own || known_.contains(p))
       {
-        kept.push_back(static_cast<std::uint32_t>(i));
+        kept.add(i);
         piece.own += own ? 1 : 0;
       }
     }
     const AttributeSchema& schema = source.description().schema;
-    keepOf(batch, schema, kept);
-    piece.points = kept.size();
-    std::vector<std::byte> bytes;
+    kept.leaveOnly(batch, schema);
+    piece.points = kept.points();
+    thread_local std::vector<std::byte> bytes;
+    bytes.clear();
     bytes.reserve(piece.points * bytesOfPoint(schema));
     const auto* positions = reinterpret_cast<const std::byte*>(batch.positions.data());
     bytes.insert(bytes.end(), positions, positions + piece.points * sizeof(glm::dvec3));

@@ -17,6 +17,8 @@ struct TileInputs
   /// Numbers of the chunks that can have points in the tile or its margin, of each source. None:
   /// the source only says what attributes and systems the cloud has.
   std::vector<std::vector<std::uint64_t>> chunks;
+  /// The hashOfPoints() of each of them when it was surveyed.
+  std::vector<std::vector<std::uint64_t>> hashes;
   /// Whether the largest 16-bit colour of each source as a whole has more than 8 bits.
   std::vector<bool> deepColours;
 };
@@ -25,7 +27,7 @@ struct TileInputs
 /// folder: sources that may be read again and again.
 /// Order   one source for each input, in its order; chunks in theirs.
 /// Threads sources as PointSource promises.
-/// Errors  those of the inputs; Unwritable; Cancelled.
+/// Errors  those of the inputs; Corrupt: a chunk is not as it was surveyed; Unwritable; Cancelled.
 struct TilePieces
 {
   PointSources sources;

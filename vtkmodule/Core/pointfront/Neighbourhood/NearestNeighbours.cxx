@@ -176,9 +176,13 @@ Result<void> Search::searchTile(std::size_t tile)
   TileWork work(std::move(*gathered), tiles_.layout().tiles()[tile].gathered, feature_.bytes());
   const PlaceOrder order = placeOrder(work.points);
   const Participants& participants = tiles_.participants();
+  work.queries = queriesOf(order, work.points, own, participants.queries, known_);
+  if (work.queries.points.empty())
+  {
+    return {}; // nobody asks for values here
+  }
   collectReferences(work.points, order, participants.references, options_.axes,
     options_.neighbours > 0 ? options_.neighbours : ~0u, work.references);
-  work.queries = queriesOf(order, work.points, own, participants.queries);
   const std::unique_ptr<NeighbourIndex> index = makeIndex_(work.references);
   NeighbourCluster cluster(
     work.references, *index, { options_.neighbours, options_.radius, options_.axes });

@@ -54,8 +54,8 @@ struct NeighbourhoodOptions
 ///          its tile did not gather. The other points are searched in a second round, in all tiles
 ///          within their reach. With an approximate index they depend on the points and tilePoints
 ///          alone.
-/// Part     if the sources are a part of a cloud, resources.known gets the distance of each query's
-///          last neighbour.
+/// Part     if the sources are a part of a cloud, only the values that resources.known wants are
+///          computed, and it gets the distance of each one's last neighbour. Others are zero.
 /// Speed    points in a row along a Morton curve share a search (NeighbourCluster).
 /// Memory   a tile a thread and the points of the second round: under resources.memoryBytes.
 /// Errors   those of PointTiles and of the sources; NoMemory; Cancelled.

@@ -1,6 +1,7 @@
 #include "pointfront/Neighbourhood/TileSearch.h"
 
 #include "pointfront/Base/Infinity.h"
+#include "pointfront/Points/KnownRegion.h"
 
 #include <algorithm>
 #include <cmath>
@@ -69,7 +70,7 @@ PlaceOrder placeOrder(const std::vector<TilePoint>& points)
 }
 
 PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points, std::size_t own,
-  const ClassSet& queries)
+  const ClassSet& queries, const KnownRegion* region)
 {
   PlaceOrder chosen;
   chosen.points.reserve(own);
@@ -77,7 +78,8 @@ PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& poin
   for (std::size_t i = 0; i < order.points.size(); ++i)
   {
     const std::uint32_t point = order.points[i];
-    if (point < own && queries[points[point].objectClass()])
+    if (point < own && queries[points[point].objectClass()] &&
+      (region == nullptr || region->wants(points[point].position)))
     {
       chosen.points.push_back(point);
       chosen.keys.push_back(order.keys[i]);

@@ -5,6 +5,8 @@
 namespace pointfront
 {
 
+class KnownRegion;
+
 /// The points of one tile in an order that is the same whatever order they came in: along a Morton
 /// curve, places at the same step of it by positionLess(). Neighbours in space are neighbours in
 /// memory, which halves the time of searches in a row.
@@ -15,9 +17,10 @@ struct PlaceOrder
 };
 PlaceOrder placeOrder(const std::vector<TilePoint>& points);
 
-/// Those of the points that are searched for: in `queries`, and among the first `own`.
+/// Those of the points that are searched for: in `queries`, among the first `own`, and wanted of
+/// the region if there is one.
 PlaceOrder queriesOf(const PlaceOrder& order, const std::vector<TilePoint>& points, std::size_t own,
-  const ClassSet& queries);
+  const ClassSet& queries, const KnownRegion* region);
 
 /// Where the run of points close together ends that begins at `begin`: at `end`, or after
 /// `longest` / 2 to `longest` points, where the curve leaves the largest cell.

@@ -23,8 +23,9 @@ struct PassResources
   unsigned threads = 0; ///< 0: one a core
   std::string temporaryFolder; ///< for files that are unlinked as soon as they are open
   ProgressFunction progress; ///< may be empty; false cancels
-  /// For sources that are a part of a cloud: gets how far each value looks. Null: they are all of
-  /// it. Outlives the sources that a pass gives.
+  /// For sources that are a part of a cloud: says which values are wanted (a pass may leave out the
+  /// others, and give anything for them), and gets how far each of these looks. Null: the sources
+  /// are all of the cloud. Outlives the sources that a pass gives.
   KnownRegion* known = nullptr;
 };
 

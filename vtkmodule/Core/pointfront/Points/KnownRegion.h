@@ -23,11 +23,13 @@ public:
   {
   }
 
+  /// Whether anybody asks for the value of `p`; it may be left out if not.
+  bool wants(const glm::dvec3& p) const { return wanted_.contains(p); }
   /// The value of `p` depends on points within that squared distance; infinite: the neighbours that
   /// it needs were not all found.
   void note(const glm::dvec3& p, double squaredReach)
   {
-    if (!wanted_.contains(p))
+    if (!wants(p))
     {
       return;
     }

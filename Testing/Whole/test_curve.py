@@ -11,7 +11,7 @@ import subprocess
 import sys
 import unittest
 
-from tool import TOOL, ToolTest
+from tool import TOOL, SharedStoreTest, ToolTest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVE = ROOT / "docs/tradeoffs/curve.csv"
@@ -52,14 +52,12 @@ class Rows(ToolTest):
                     self.assertAlmostEqual(now[column], float(row[column]), delta=0.002)
 
 
-class Told(ToolTest):
+class Told(SharedStoreTest):
     """The tool tells of its pictures what the curve says."""
 
-    def setUp(self):
-        super().setUp()
-        self.store = self.folder / "normals.pfront"
-        self.succeed("build", ROOT / "Testing/Data/autzen_stadium.laz", "-o", self.store,
-                     "--normals", "pca")
+    @classmethod
+    def make_store(cls, folder):
+        return [ROOT / "Testing/Data/autzen_stadium.laz", "--normals", "pca"]
 
     def render(self, *words):
         stats = self.folder / "stats.json"

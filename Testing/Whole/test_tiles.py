@@ -3,25 +3,41 @@
 import hashlib
 import json
 import os
+import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import time
 import unittest
 
-from tool import SLOWNESS, TOOL, ToolTest, pointfront, write_las
+from tool import SLOWNESS, TOOL, WORK, ToolTest, pointfront, write_las
 
 POINTS = 60000 if SLOWNESS == 1 else 15000
 EDGE = "40"  # metres; the land is some 80 m wide
+FEWER, SMALL_EDGE = 20000, "24"  # as many tiles of fewer points, where no value is looked at
+SURVEYS = WORK / "surveys"
 VALUES = ("--normals", "pca", "--curvature", "--local-height", "--height-above-ground")
 
 
+def setUpModule():  # pylint: disable=invalid-name
+    shutil.rmtree(SURVEYS, ignore_errors=True)
+    unittest.addModuleCleanup(shutil.rmtree, SURVEYS, ignore_errors=True)
+
+
 def survey(test, points=POINTS):
+    """A copy of the files that make_survey() makes once for all tests."""
+    made = SURVEYS / str(points)
+    if not made.exists():
+        made.mkdir(parents=True)
+        make_survey(test, points, made)
+    return pathlib.Path(shutil.copytree(made, test.folder / "inputs"))
+
+
+def make_survey(test, points, folder):
     """Files of one land of 16 bit colours, cut across the tiles; beside it a file of 8 bit colours,
     one without classes, and a point so far from all others that its neighbours are in other tiles.
     """
-    folder = test.folder / "inputs"
-    folder.mkdir(exist_ok=True)
     whole, store = test.folder / "whole.las", test.folder / "whole.pfront"
     test.succeed("generate", "--points", points, "-o", whole, "--seed", 3, "--progress", "none")
     test.succeed("build", whole, "-o", store, "--progress", "none")
@@ -40,7 +56,6 @@ def survey(test, points=POINTS):
             f"{61 + draw.random():.3f}" for _ in range(points // 20)]
     rows.append(f"{west + 1:.3f} {north + 140:.3f} 64.000")
     (folder / "bare.xyz").write_text("\n".join(rows))
-    return folder
 
 
 def rows_of(test, cloud):
@@ -148,12 +163,12 @@ class Tiles(ToolTest):
 
 class Restart(ToolTest):
     def arguments(self, name, *options):
-        return ["build", self.inputs, "-o", self.folder / name, "--tiles", "--tile", EDGE,
+        return ["build", self.inputs, "-o", self.folder / name, "--tiles", "--tile", SMALL_EDGE,
                 "--json", *VALUES, *options]
 
     def setUp(self):
         super().setUp()
-        self.inputs = survey(self)
+        self.inputs = survey(self, FEWER)
 
     def test_a_killed_build_goes_on_to_the_same_bytes(self):
         begin = time.monotonic()

@@ -26,7 +26,7 @@ namespace
 /// Pixels and viewports whose keys stay from frame to frame.
 constexpr std::int64_t keptPixels = std::int64_t(8) << 20;
 constexpr std::int64_t fewestKept = 4;
-constexpr std::int64_t mostKept = 16;
+constexpr std::int64_t mostKept = 64;
 /// Buffers of a picture take that much at most, over all threads: a larger one is drawn in bands.
 constexpr std::int64_t mostBytes = std::int64_t(768) << 20;
 constexpr int leastRows = 64;

@@ -50,7 +50,7 @@ class SoftwareRasteriser
 {
 public:
   /// Number of viewports of that many pixels whose keys stay from frame to frame, over all stores
-  /// and parts: as many as eight million pixels have, but at least 4, and at most 16. Of further
+  /// and parts: as many as eight million pixels have, but at least 4, and at most 64. Of further
   /// ones only marks of visible points stay. Stand-ins of refining views have half as many again
   /// beside them.
   static int keptPictures(std::int64_t viewportPixels);

@@ -12,6 +12,7 @@ from pair_test import PairTest
 from random_loading import KINDS, Loading, LoadingClouds
 
 USUAL = 4  # a scene has dozens of frames, of both back ends
+OPACITIES = (("2", 0.8), ("5", 0.7), ("6", 0.6), ("9", 0.5))
 # (kind, case): the smallest cases that once differed.
 FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
     "position": [400499.25, 5600214.90, 411.29], "focal_point": [400043.91, 5600006.65, 91.31],
@@ -21,6 +22,20 @@ FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
         "position": [400071.1292686941, 5600018.623587355, 71.21919381167415],
         "focal_point": [400038.45385257935, 5600016.841604646, 68.81958381167347],
         "view_up": [0, 0, 1], "view_angle": 20}, "error": "3", "growth": 0.05}),
+    # Two classes share about the least ground that counts.
+    (LoadingClouds, {"cloud": 5, "style": {}, "camera": {
+        "position": [399986.0240562979, 5600040.6376106655, 59.29799211512316],
+        "focal_point": [400030.1834021716, 5600017.512486468, 56.89838211512247],
+        "view_up": [0, 0, 1], "view_angle": 20}, "error": "3", "growth": 0}),
+    # Three clouds are 27 pictures.
+    (LoadingClouds, {"cloud": 5, "style": {
+        "classes": {name: {"opacity": share} for name, share in OPACITIES}, "lenses": [{
+            "shape": "circle", "center_px": [240, 160], "radius_px": 250,
+            "inside": {name: {"opacity": 0.8 * share} for name, share in OPACITIES}}]},
+        "camera": {
+            "position": [400002.5240765792, 5599663.349002757, 381.9656177524917],
+            "focal_point": [400048.47211211245, 5600015.878300028, 62.01761775240042],
+            "view_up": [0, 0, 1], "view_angle": 20}, "error": "0.01", "growth": 0}),
     # The trees of hidden classes are not loaded.
     (LoadingClouds, {"cloud": 5, "style": {"classes": {"2": {"visible": False}}}, "camera": {
         "position": [400037.03044364793, 5600028.989640989, 58.06921272895356],

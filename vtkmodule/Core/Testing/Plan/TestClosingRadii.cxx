@@ -32,7 +32,7 @@ TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
   add(3, 1, 1.0f, 990, false); // near: all there
   add(4, 1, 11.0f, 10, false); // some strays
   add(2, 0, 40.0f, 900, true); // far away: coarse
-  matchNeighbours(batches, QuantisationGrid());
+  matchNeighbours(batches);
   const std::vector<PlanItem>& items = batches[0].items;
   for (const std::size_t above : { std::size_t(0), std::size_t(1) })
   {
@@ -51,7 +51,7 @@ TEST(FramePlanner, WhatIsFarAwayMakesNoSplatsNearTheEyeLarge)
     item.refined = false;
   }
   batches[0].items[1].closingRadius = 30.0f;
-  matchNeighbours(batches, QuantisationGrid());
+  matchNeighbours(batches);
   EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 30.0f) << "the nearer of the two";
 }
 
@@ -73,7 +73,7 @@ TEST(FramePlanner, WhatGrowsIsClosedByItsParentAlone)
   }
   const auto spacings = [&]
   {
-    matchNeighbours(batches, QuantisationGrid());
+    matchNeighbours(batches);
     std::vector<float> all;
     for (const PlanItem& item : batches[0].items)
     {
@@ -91,13 +91,12 @@ TEST(FramePlanner, WhatGrowsIsClosedByItsParentAlone)
 TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
 {
   std::vector<DrawBatch> batches(2);
-  QuantisationGrid grid;
   const auto add =
     [&](std::uint16_t layer, NodeIndex number, float radius, std::uint32_t points, double x)
   {
     auto node = std::make_shared<NodeColumns>();
     node->node = number;
-    node->origin = grid.toGrid({ x, 0.0, 0.0 });
+    node->centre = { x, 0.0, 0.0 };
     node->halfSize = { 50.0f, 50.0f, 5.0f };
     PlanItem item;
     item.node = node;
@@ -110,24 +109,23 @@ TEST(FramePlanner, AFewPointsOfAClassAmongManyOfAnotherHaveSplatsLikeTheirs)
   add(0, 1, 0.4f, 10000, 100.0);
   add(1, 2, 6.0f, 100, 0.0); // among the first
   add(1, 3, 6.0f, 100, 5000.0); // alone
-  matchNeighbours(batches, grid);
+  matchNeighbours(batches);
   EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 0.5f);
   EXPECT_FLOAT_EQ(batches[0].items[1].closingRadius, 0.4f);
   EXPECT_FLOAT_EQ(batches[1].items[0].closingRadius, 1.0f);
   EXPECT_FLOAT_EQ(batches[1].items[1].closingRadius, 6.0f);
 }
 
-/// Cells of trees halve, so a node often covers a quarter of another layer's. A table says its
-/// place in other numbers than the node does, and their rounding must not decide.
+/// Cells of trees halve, so a node often covers a quarter of another layer's, and rounding must not
+/// decide.
 TEST(FramePlanner, AQuarterOfAnotherLayersGroundCountsHoweverItIsRounded)
 {
   for (const double rounding : { -1e-7, 0.0, 1e-7 })
   {
     std::vector<DrawBatch> batches(1);
-    QuantisationGrid grid;
     auto node = std::make_shared<NodeColumns>();
     node->node = 0;
-    node->origin = grid.toGrid({ 0.0, 0.0, 0.0 });
+    node->centre = { 50.0, 50.0, 5.0 };
     node->halfSize = { 50.0f, 50.0f, 5.0f };
     PlanItem sparse;
     sparse.node = node;
@@ -140,7 +138,42 @@ TEST(FramePlanner, AQuarterOfAnotherLayersGroundCountsHoweverItIsRounded)
     dense.points = 10000;
     dense.closingRadius = 0.5f;
     dense.box = { { rounding, 0.0, 0.0 }, { 50.0, 50.0, 5.0 } };
-    matchNeighbours(batches, grid, { dense });
+    matchNeighbours(batches, { dense });
     EXPECT_FLOAT_EQ(batches[0].items[0].closingRadius, 1.0f) << rounding;
   }
+}
+
+/// A node's own points begin inside of the box of its row, which has the points below it, too.
+/// While the node is being loaded its row says its place, so its columns must say the same place.
+TEST(FramePlanner, ANodeInMemorySharesTheGroundThatItsRowDoes)
+{
+  const QuantisationGrid grid;
+  Node row;
+  row.centre = { 50.0, 50.0, 5.0 };
+  row.halfSize = { 50.0f, 50.0f, 5.0f };
+  row.layer = 1;
+  auto columns = std::make_shared<NodeColumns>();
+  columns->node = 1;
+  columns->origin = grid.toGrid({ 5.0, 5.0, 5.0 }); // the lowest of its own points
+  columns->describe(row);
+  const auto sizeOf = [&](const std::shared_ptr<NodeColumns>& sparse, NodeElsewhere other)
+  {
+    std::vector<DrawBatch> batches(1);
+    PlanItem item;
+    item.node = sparse;
+    item.last = 100;
+    item.closingRadius = 6.0f;
+    batches[0].layer = row.layer;
+    batches[0].items.push_back(item);
+    other.points = 10000;
+    other.closingRadius = 0.5f;
+    matchNeighbours(batches, { other });
+    return batches[0].items[0].closingRadius;
+  };
+  NodeElsewhere beside;
+  beside.node = 0;
+  beside.box = { { 0.0, 0.0, 0.0 }, { 49.0, 50.0, 5.0 } }; // .245 of the row's ground
+  EXPECT_FLOAT_EQ(sizeOf(columns, beside), 1.0f);
+  beside.box = { { 55.0, 50.0, 0.0 }, { 105.0, 100.0, 5.0 } }; // .225 of it
+  EXPECT_FLOAT_EQ(sizeOf(columns, beside), 6.0f);
 }

@@ -47,11 +47,9 @@ struct DrawnNode
   float handedSpacingPx = 0.0f; ///< that the node's parent has to close while the node grows
 };
 
-Ground groundOf(const PlanItem& item, const QuantisationGrid& grid)
+Ground groundOf(const Bounds& box)
 {
-  const glm::dvec3 low = grid.toWorld(item.node->origin);
-  const glm::dvec3 size = 2.0 * glm::dvec3(item.node->halfSize);
-  return { { low.x, low.y }, { low.x + size.x, low.y + size.y } };
+  return { { box.low.x, box.low.y }, { box.high.x, box.high.y } };
 }
 
 bool before(const DrawnNode& drawn, NodeIndex node)
@@ -59,23 +57,22 @@ bool before(const DrawnNode& drawn, NodeIndex node)
   return drawn.node < node;
 }
 
-std::vector<DrawnNode> nodesOf(const std::vector<DrawBatch>& batches, const QuantisationGrid& grid,
-  const std::vector<NodeElsewhere>& elsewhere)
+std::vector<DrawnNode> nodesOf(
+  const std::vector<DrawBatch>& batches, const std::vector<NodeElsewhere>& elsewhere)
 {
   std::vector<DrawnNode> nodes;
   for (const NodeElsewhere& other : elsewhere)
   {
-    nodes.push_back(
-      { other.node, other.parent, other.layer, other.points, other.closingRadius, other.unfinished,
-        { { other.box.low.x, other.box.low.y }, { other.box.high.x, other.box.high.y } } });
+    nodes.push_back({ other.node, other.parent, other.layer, other.points, other.closingRadius,
+      other.unfinished, groundOf(other.box) });
   }
   for (const DrawBatch& batch : batches)
   {
     for (const PlanItem& item : batch.items)
     {
       nodes.push_back({ item.node->node, item.node->parent, batch.layer, item.last - item.first,
-        item.closingRadius, item.unfinished, groundOf(item, grid), 0.0f, item.growingSpacingPx,
-        false, item.growingSpacingPx });
+        item.closingRadius, item.unfinished, groundOf(item.node->box()), 0.0f,
+        item.growingSpacingPx, false, item.growingSpacingPx });
     }
   }
   std::stable_sort(nodes.begin(), nodes.end(),
@@ -209,10 +206,9 @@ void matchLayers(std::vector<DrawnNode>& nodes)
 
 } // namespace
 
-void matchNeighbours(std::vector<DrawBatch>& batches, const QuantisationGrid& grid,
-  const std::vector<NodeElsewhere>& elsewhere)
+void matchNeighbours(std::vector<DrawBatch>& batches, const std::vector<NodeElsewhere>& elsewhere)
 {
-  std::vector<DrawnNode> nodes = nodesOf(batches, grid, elsewhere);
+  std::vector<DrawnNode> nodes = nodesOf(batches, elsewhere);
   refine(nodes);
   const bool layered = std::any_of(nodes.begin(), nodes.end(),
     [&](const DrawnNode& drawn) { return drawn.layer != nodes.front().layer; });

@@ -31,7 +31,7 @@ struct NodeElsewhere
 ///         twice as large as theirs: a few points of one class among many of another are no surface
 ///         of their own.
 /// Time    n log n of the items; for those of layers that are sparser than most, n each.
-void matchNeighbours(std::vector<DrawBatch>& batches, const QuantisationGrid& grid,
-  const std::vector<NodeElsewhere>& elsewhere = {});
+void matchNeighbours(
+  std::vector<DrawBatch>& batches, const std::vector<NodeElsewhere>& elsewhere = {});
 
 } // namespace pointfront

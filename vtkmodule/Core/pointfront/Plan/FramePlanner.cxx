@@ -329,7 +329,7 @@ FramePlan planFrame(
   const bool whole = front.last().complete && (!request.growth || request.growth->whole());
   plan.refining = expected && !whole;
   std::vector<DrawBatch> layers = batchesOf(std::move(items.items));
-  matchNeighbours(layers, plan.grid,
+  matchNeighbours(layers,
     nodesElsewhere(plan.refining ? expected->nodes() : front.drawnElsewhere(), request.styles));
   addStyled(layers, request.styles, plan, plan.batches);
   addStyled(items.standIns, request.styles, plan, plan.standIns);

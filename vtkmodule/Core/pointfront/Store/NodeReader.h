@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/RawBytes.h"
 #include "pointfront/Base/Result.h"
 #include "pointfront/Disk/ByteSource.h"
@@ -31,6 +32,7 @@ struct NodeColumns
   GridPosition origin{ 0 };
   // As the node's row in the table says: who draws it need not ask a table that may be on a disk.
   std::uint64_t firstPoint = 0;
+  glm::dvec3 centre{ 0.0 }; ///< world; `origin` need not be the low corner of the row's box
   glm::vec3 halfSize{ 0.0f };
   float spacing = 0.0f;
   float splatRadius = 0.0f; ///< world units; 0 where it was not measured
@@ -44,6 +46,7 @@ struct NodeColumns
   void describe(const Node& row)
   {
     firstPoint = row.firstPoint;
+    centre = row.centre;
     halfSize = row.halfSize;
     spacing = row.spacing;
     splatRadius = row.splatRadius;
@@ -51,6 +54,8 @@ struct NodeColumns
     parent = row.parent;
     leaf = row.leaf();
   }
+  /// The box of the row: of these points and all below.
+  Bounds box() const { return { centre - glm::dvec3(halfSize), centre + glm::dvec3(halfSize) }; }
   std::size_t size() const { return positions.size(); }
   /// Host memory held, for budgets.
   std::size_t bytes() const

@@ -9,10 +9,10 @@ and without normals, one thread each. Prints the processor seconds (user and sys
 of the medians, their ratio, and the largest resident memory of a process. docs/adr/0049 explains
 them.
 
-With --package (the folder of the Python package `pointfront`), also builds the LAZ with normals by
-`cluster build` with one process and with N, of one thread each, and prints seconds on the clock,
-their ratio, and the largest resident memory of a process that does steps, beside --memory. That
-ratio means something on a machine that does nothing else.
+With --package (the folder that the Python package `pointfront` of the same build lies in), also
+builds the LAZ with normals by `cluster build` with one process and with N, of one thread each.
+Prints seconds on the clock, their ratio, which means something on a machine that does nothing else,
+and the largest resident memory of any process (generating and Dask's included) beside --memory.
 """
 
 import argparse
@@ -66,7 +66,7 @@ def main():
     parser.add_argument("tool", type=pathlib.Path)
     parser.add_argument("--points", type=int, default=2_000_000)
     parser.add_argument("--tile", type=float, default=160.0)
-    parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--runs", type=int, default=3, help="0: only the cluster")
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--package", type=pathlib.Path)
     parser.add_argument("--workers", type=int, default=2)
@@ -75,23 +75,24 @@ def main():
     tool = args.tool.resolve()
     with tempfile.TemporaryDirectory(dir=args.work) as folder:
         work = pathlib.Path(folder)
-        print(f"{'input':18}{'tiles':>6}{'store s':>9}{'tiles s':>9}{'ratio':>7}{'MiB':>6}"
-              f"{'spilled MB':>12}")
+        if args.runs:
+            print(f"{'input':18}{'tiles':>6}{'store s':>9}{'tiles s':>9}{'ratio':>7}{'MiB':>6}"
+                  f"{'spilled MB':>12}")
         for extension in ("las", "laz"):
             source = work / f"cloud.{extension}"
             call(tool, "generate", "--points", args.points, "-o", source, "--seed", 3,
                  "--progress", "none")
-            for kind, options in KINDS.items():
+            for kind, options in (KINDS if args.runs else {}).items():
                 seconds, _, many = compare(tool, work, args, source, options)
                 print(f"{extension + ' ' + kind:18}{many['tiles']:6}{seconds['store']:9.2f}"
                       f"{seconds['tiles']:9.2f}{seconds['tiles'] / seconds['store']:7.2f}"
                       f"{many['peak_rss_bytes'] / 2**20:6.0f}{many['spilled_bytes'] / 1e6:12.0f}",
                       flush=True)
         if args.package:
-            cluster(tool, work, args)
+            cluster(work, args)
 
 
-def cluster(tool, work, args):
+def cluster(work, args):
     """One process and several, on the clock."""
     clock = {}
     for workers in (1, args.workers):
@@ -100,7 +101,7 @@ def cluster(tool, work, args):
             [sys.executable, "-m", "pointfront", "cluster", "build", work / "cloud.laz", "-o", land,
              "--tile", args.tile, "--local", workers, "--threads", 1, "--memory", args.memory,
              "--normals", "pca", "--json", "--progress", "none"],
-            {"PYTHONPATH": str(args.package), "POINTFRONT_TOOL": str(tool)})
+            {"PYTHONPATH": str(args.package.resolve())})
         print(f"cluster, {workers} processes: {clock[workers]:.1f} s, {used:.1f} s of processors")
     largest = resource.getrusage(resource.RUSAGE_CHILDREN).ru_maxrss / 1024
     print(f"{args.workers} processes: {clock[1] / clock[args.workers]:.2f} times one; largest "

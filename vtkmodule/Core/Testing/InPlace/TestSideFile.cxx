@@ -1,5 +1,6 @@
 #include "pointfront/InPlace/SideFile.h"
 
+#include "GoldenFiles.h"
 #include "MadeUpRecords.h"
 #include "SampleStore.h"
 #include "SplatPatterns.h"
@@ -306,7 +307,7 @@ TEST(SideFile, DamageIsTold)
 // Kept for ever: written by the program before rows said how large splats are.
 TEST(SideFile, Version1StaysReadable)
 {
-  const auto side = SideFile::open(POINTFRONT_CORE_TEST_DATA "/version1.pfindex");
+  const auto side = SideFile::open(goldenFile("version1.pfindex"));
   ASSERT_TRUE(side) << side.error().what;
   const SideFileContent& content = (*side)->content();
   EXPECT_EQ(content.stored.description.version, 1u);

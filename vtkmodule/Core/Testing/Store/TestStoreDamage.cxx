@@ -1,4 +1,5 @@
 #include "ForgedStore.h"
+#include "GoldenFiles.h"
 #include "SampleStore.h"
 
 #include "pointfront/Codec/Checksum.h"
@@ -223,7 +224,7 @@ TEST(StoreDamage, ColumnsWithoutASoundScaleAreRefused)
 
 TEST(StoreDamage, UnknownCodecOfVersion1IsUnsupported)
 {
-  ForgedStore forged(POINTFRONT_CORE_TEST_DATA "/version1.pfront");
+  ForgedStore forged(goldenFile("version1.pfront"));
   std::vector<std::byte> directory = forged.section(SectionKind::BlockDirectory);
   directory.back() = std::byte(77); // the codecs are its last array
   forged.replaceSection(SectionKind::BlockDirectory, directory);
@@ -301,7 +302,7 @@ TEST(StoreDamage, HugeClaimsOfVersion1AreRefused)
   const std::string path = temporaryPath("huge.pfront");
   const auto refused = [&](const char* what, const auto& change)
   {
-    ForgedStore forged(POINTFRONT_CORE_TEST_DATA "/version1.pfront");
+    ForgedStore forged(goldenFile("version1.pfront"));
     change(forged);
     forged.write(path);
     EXPECT_EQ(openFails(path).kind, Error::Kind::Corrupt) << what;

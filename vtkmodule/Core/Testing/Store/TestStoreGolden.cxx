@@ -1,3 +1,4 @@
+#include "GoldenFiles.h"
 #include "SampleStore.h"
 
 #include <gtest/gtest.h>
@@ -11,15 +12,10 @@ namespace
 {
 // Two stores of each version, kept for ever. A change of the format gets a new version and new
 // files; these stay, and stay readable. (POINTFRONT_WRITE_GOLDEN=FOLDER writes the newest there.)
-const std::string small = "/version3.pfront";
-const std::string large = "/version3-all-codecs.pfront";
+const std::string smallFile = "version3.pfront";
+const std::string largeFile = "version3-all-codecs.pfront";
 constexpr std::uint32_t smallPoints = 3;
 constexpr std::uint32_t largePoints = 260;
-
-std::string golden(const std::string& name)
-{
-  return POINTFRONT_CORE_TEST_DATA + name;
-}
 
 void expectSample(const std::string& path, const SampleStore& sample, std::uint32_t version)
 {
@@ -59,12 +55,12 @@ void expectSample(const std::string& path, const SampleStore& sample, std::uint3
 
 TEST(StoreGolden, EveryVersionStaysReadable)
 {
-  expectSample(golden("/version1.pfront"), makeSample(smallPoints), 1);
-  expectSample(golden("/version1-all-codecs.pfront"), makeSample(largePoints), 1);
-  expectSample(golden("/version2.pfront"), makeSample(smallPoints), 2);
-  expectSample(golden("/version2-all-codecs.pfront"), makeSample(largePoints), 2);
-  expectSample(golden(small), makeSample(smallPoints), 3);
-  expectSample(golden(large), makeSample(largePoints), 3);
+  expectSample(goldenFile("version1.pfront"), makeSample(smallPoints), 1);
+  expectSample(goldenFile("version1-all-codecs.pfront"), makeSample(largePoints), 1);
+  expectSample(goldenFile("version2.pfront"), makeSample(smallPoints), 2);
+  expectSample(goldenFile("version2-all-codecs.pfront"), makeSample(largePoints), 2);
+  expectSample(goldenFile(smallFile), makeSample(smallPoints), 3);
+  expectSample(goldenFile(largeFile), makeSample(largePoints), 3);
 }
 
 TEST(StoreGolden, TheLargeOneHasEveryCodec)
@@ -88,12 +84,12 @@ TEST(StoreGolden, TheFormatHasNotChanged)
 {
   const std::string path = temporaryPath("a.pfront");
   writeSample(makeSample(smallPoints), path);
-  EXPECT_TRUE(fileBytes(path) == fileBytes(golden(small)))
+  EXPECT_TRUE(fileBytes(path) == fileBytes(goldenFile(smallFile)))
     << "what is written now differs from version 3: give the format a new version";
   if (const char* folder = std::getenv("POINTFRONT_WRITE_GOLDEN"))
   {
-    writeSample(makeSample(smallPoints), folder + small);
-    writeSample(makeSample(largePoints), folder + large);
+    writeSample(makeSample(smallPoints), std::string(folder) + "/" + smallFile);
+    writeSample(makeSample(largePoints), std::string(folder) + "/" + largeFile);
   }
 }
 

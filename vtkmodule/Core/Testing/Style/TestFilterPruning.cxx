@@ -1,3 +1,4 @@
+#include "GoldenFiles.h"
 #include "SampleStore.h"
 
 #include "pointfront/Style/ClassHeights.h"
@@ -119,7 +120,7 @@ TEST(FilterPruning, AStyleWithoutAFilterLeavesNothingOut)
 
 TEST(FilterPruning, StoresThatKnowNothingOfTheirNodesAreDrawnWhole)
 {
-  const auto store = PointStore::open(std::string(POINTFRONT_CORE_TEST_DATA) + "/version2.pfront");
+  const auto store = PointStore::open(goldenFile("version2.pfront"));
   ASSERT_TRUE(store);
   StyleSheet sheet;
   sheet.where = *FilterExpression::parse("classification == 99");

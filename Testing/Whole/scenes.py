@@ -21,7 +21,11 @@ class SceneTest(ToolTest):
         return super().succeed(*with_backend(arguments), **options)
 
     def refuse(self, status, *arguments, **options):
-        return super().refuse(status, *with_backend(arguments), **options)
+        """A test that means its X server to be missing says so by `environment`."""
+        outcome = super().refuse(status, *with_backend(arguments), **options)
+        if "environment" not in options:
+            self.assertNotIn("no X server answers", outcome.err)
+        return outcome
 
     def picture(self, *arguments, size=SIZE):
         path = self.folder / "picture.png"

@@ -158,7 +158,7 @@ endfunction ()
 # pointfront_add_unit_tests(<library> PREFIX <prefix> [KNOWS_DATA] [ONE_THREAD] LINK <library>...
 #   [SOURCES <file>...] [INCLUDE <folder>...] [DISCOVER <as pointfront_discover_tests>...])
 # The executable pointfront<library>Tests of all *.cxx of the calling folder, or of SOURCES.
-# ONE_THREAD: neither the library nor its tests start a thread: nothing is built for ThreadSanitizer.
+# ONE_THREAD: library and tests start no thread: nothing is built for ThreadSanitizer.
 # KNOWS_DATA: it is told where the public clouds are; a path in every command line keeps ccache from
 # sharing between checkouts.
 function (pointfront_add_unit_tests library)

@@ -6,7 +6,6 @@
 #include "SplatPatterns.h"
 
 #include "pointfront/Codec/Checksum.h"
-#include "pointfront/InPlace/NodePoints.h"
 #include "pointfront/InPlace/SampleStream.h"
 
 #include <glm/vector_relational.hpp>

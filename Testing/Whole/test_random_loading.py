@@ -27,7 +27,7 @@ FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
         "position": [399986.0240562979, 5600040.6376106655, 59.29799211512316],
         "focal_point": [400030.1834021716, 5600017.512486468, 56.89838211512247],
         "view_up": [0, 0, 1], "view_angle": 20}, "error": "3", "growth": 0}),
-    # Three clouds are 27 pictures.
+    # Three clouds are more than 16 pictures.
     (LoadingClouds, {"cloud": 5, "style": {
         "classes": {name: {"opacity": share} for name, share in OPACITIES}, "lenses": [{
             "shape": "circle", "center_px": [240, 160], "radius_px": 250,

@@ -6,7 +6,7 @@
 #include "SplatPatterns.h"
 
 #include "pointfront/Codec/Checksum.h"
-#include "pointfront/InPlace/SampleStream.h"
+#include "pointfront/InPlace/NodePoints.h"
 
 #include <glm/vector_relational.hpp>
 #include <gtest/gtest.h>
@@ -255,21 +255,6 @@ TEST(InPlaceTable, InnerNodesAreFairSubsets)
     EXPECT_NEAR(count, static_cast<double>(root->size()) / 4, 30.0);
   }
   EXPECT_GT(steps.size(), root->size() / 2); // a random step, not an equidistant one
-}
-
-TEST(SampleStream, TakesOnePointOfEveryStratum)
-{
-  for (unsigned logStep = 0; logStep < 12; ++logStep)
-  {
-    const SampleStream stream{ logStep };
-    for (std::uint64_t stratum = 0; stratum < 50; ++stratum)
-    {
-      const std::uint64_t point = stream.sample(stratum);
-      EXPECT_EQ(point >> logStep, stratum);
-      EXPECT_TRUE(stream.contains(point));
-      EXPECT_FALSE(logStep > 0 && stream.contains(point ^ 1));
-    }
-  }
 }
 
 TEST(SideFile, DamageIsTold)

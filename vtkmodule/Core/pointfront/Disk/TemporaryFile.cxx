@@ -7,6 +7,7 @@
 #include <optional>
 #include <random>
 #include <string_view>
+#include <utility>
 
 #include <dirent.h>
 #include <fcntl.h>
@@ -145,21 +146,33 @@ std::optional<int> renameToFree(const std::string& from, const std::string& to)
   }
   return ::rename(from.c_str(), to.c_str()) == 0 ? std::nullopt : std::optional<int>(errno);
 }
-} // namespace
-
-std::string folderOf(const std::string& path)
+/// A file that is locked when it gets its name, so that whoever is killed leaves none that nobody
+/// takes for a left-over. Nothing where the file system or the kernel cannot do that.
+std::optional<TemporaryFile> createUnnamed(const std::string& path, const std::string& random)
 {
-  const std::size_t slash = path.rfind('/');
-  if (slash == std::string::npos)
+#ifdef O_TMPFILE
+  const int descriptor = ::open(folderOf(path).c_str(), O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
+  if (descriptor < 0)
   {
-    return ".";
+    return std::nullopt;
   }
-  return slash == 0 ? "/" : path.substr(0, slash);
+  ::flock(descriptor, LOCK_EX | LOCK_NB); // fails only where there are no locks
+  struct stat state = {};
+  ::fstat(descriptor, &state);
+  const std::string named = path + markOf(state.st_ino, random) + std::string(ending);
+  const std::string opened = "/proc/self/fd/" + std::to_string(descriptor);
+  if (::linkat(AT_FDCWD, opened.c_str(), AT_FDCWD, named.c_str(), AT_SYMLINK_FOLLOW) == 0)
+  {
+    return TemporaryFile{ named, descriptor };
+  }
+  ::close(descriptor);
+#endif
+  return std::nullopt;
 }
 
-Result<TemporaryFile> createTemporaryFile(const std::string& path)
+/// Likewise with a first name, under which a kill between two calls leaves an empty file.
+Result<TemporaryFile> createNamed(const std::string& path, const std::string& random)
 {
-  const std::string random = hexadecimal(randomNumber());
   const std::string first = path + "." + random + std::string(ending);
   int descriptor = -1;
   do
@@ -175,16 +188,40 @@ Result<TemporaryFile> createTemporaryFile(const std::string& path)
   struct stat state = {};
   ::fstat(descriptor, &state);
   const std::string named = path + markOf(state.st_ino, random) + std::string(ending);
-  const int failed = ::rename(first.c_str(), named.c_str()) != 0 ? errno : 0;
-  if (failed != 0 || !removeOthers(path, named))
+  if (::rename(first.c_str(), named.c_str()) != 0)
   {
-    ::unlink(failed != 0 ? first.c_str() : named.c_str());
+    const int failed = errno;
+    ::unlink(first.c_str());
     ::close(descriptor);
-    return notMade(path,
-      failed != 0 ? creationAdvice(failed, path)
-                  : "another process is writing it now; wait or choose another name");
+    return notMade(path, creationAdvice(failed, path));
   }
   return TemporaryFile{ named, descriptor };
+}
+} // namespace
+
+std::string folderOf(const std::string& path)
+{
+  const std::size_t slash = path.rfind('/');
+  if (slash == std::string::npos)
+  {
+    return ".";
+  }
+  return slash == 0 ? "/" : path.substr(0, slash);
+}
+
+Result<TemporaryFile> createTemporaryFile(const std::string& path)
+{
+  const std::string random = hexadecimal(randomNumber());
+  std::optional<TemporaryFile> unnamed = createUnnamed(path, random);
+  Result<TemporaryFile> created =
+    unnamed ? Result<TemporaryFile>(std::move(*unnamed)) : createNamed(path, random);
+  if (created && !removeOthers(path, created->path))
+  {
+    ::unlink(created->path.c_str());
+    ::close(created->descriptor);
+    return notMade(path, "another process is writing it now; wait or choose another name");
+  }
+  return created;
 }
 
 bool removeLeftOvers(const std::string& path)

@@ -43,14 +43,18 @@ void bind(vtkOpenGLFramebufferObject* framebuffer, unsigned int outputs)
   glDrawBuffers(static_cast<GLsizei>(outputs), all);
 }
 
-/// A rectangle of a framebuffer becomes that of a texture of its size.
+/// A rectangle of a framebuffer becomes that of a texture of its size. What the framebuffer reads
+/// from is as before when VTK is called again: it keeps that in mind, too, and may compare.
 void copyTo(vtkTextureObject* texture, vtkOpenGLFramebufferObject* from, unsigned int attachment,
   const PixelRectangle& r)
 {
   from->Bind();
-  glReadBuffer(attachment);
   texture->Activate();
+  GLint before = GL_NONE;
+  glGetIntegerv(GL_READ_BUFFER, &before);
+  glReadBuffer(attachment);
   glCopyTexSubImage2D(GL_TEXTURE_2D, 0, r.left, r.bottom, r.left, r.bottom, r.width(), r.height());
+  glReadBuffer(static_cast<GLenum>(before));
   texture->Deactivate();
 }
 

@@ -2,8 +2,6 @@
 
 #include "ByteSize.h"
 
-#include "pointfront/Disk/ByteTraffic.h"
-
 #include <cstdlib>
 #include <string>
 
@@ -33,11 +31,25 @@ void declareFarOptions(CLI::App& command)
 
 void addTraffic(nlohmann::ordered_json& statistics)
 {
-  const ByteTraffic& traffic = ByteTraffic::ofProcess();
-  statistics["requests"] = traffic.requests.load();
-  statistics["bytes_fetched"] = traffic.bytes.load();
-  statistics["retries"] = traffic.retries.load();
-  statistics["cache_hits"] = traffic.cacheHits.load();
+  addTraffic(statistics, ByteTraffic::ofProcess().counts());
+}
+
+void addTraffic(nlohmann::ordered_json& statistics, const TrafficCounts& traffic)
+{
+  statistics["requests"] = traffic.requests;
+  statistics["bytes_fetched"] = traffic.bytes;
+  statistics["retries"] = traffic.retries;
+  statistics["cache_hits"] = traffic.cacheHits;
+  statistics["cache_bytes"] = traffic.cacheBytes;
+}
+
+std::string trafficText(const TrafficCounts& traffic)
+{
+  const bool one = traffic.requests == 1;
+  return "\n  traffic     " + std::to_string(traffic.requests) +
+    (one ? " request, " : " requests, ") + byteSizeText(traffic.bytes) + " fetched, " +
+    byteSizeText(traffic.cacheBytes) + " from the cache" +
+    (traffic.retries > 0 ? ", " + std::to_string(traffic.retries) + " retries" : "");
 }
 
 } // namespace pointfront

@@ -1,7 +1,11 @@
 #pragma once
 
+#include "pointfront/Disk/ByteTraffic.h"
+
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
+
+#include <string>
 
 namespace pointfront
 {
@@ -10,8 +14,11 @@ namespace pointfront
 /// place of POINTFRONT_CACHE_SIZE and POINTFRONT_OFFLINE, for this process and its children.
 void declareFarOptions(CLI::App& command);
 
-/// Adds to the statistics what this process has had from servers: requests, bytes_fetched, retries
-/// and cache_hits. All are 0 for files.
+/// Adds to the statistics what came from servers, or what this process has had so far: requests,
+/// bytes_fetched, retries, cache_hits and cache_bytes. All are 0 for files.
 void addTraffic(nlohmann::ordered_json& statistics);
+void addTraffic(nlohmann::ordered_json& statistics, const TrafficCounts& traffic);
+/// A line of `info` for people.
+std::string trafficText(const TrafficCounts& traffic);
 
 } // namespace pointfront

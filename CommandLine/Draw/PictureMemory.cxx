@@ -80,7 +80,7 @@ Result<void> PictureMemory::checkFrame() const
   }
   return makeError(Error::Kind::NoMemory,
     "a frame of " + std::to_string(size_[0]) + " x " + std::to_string(size_[1]) +
-      " pixels takes --memory " + std::to_string(frameBytes() + (frameBytes() + 2) / 3) +
+      " pixels takes --memory " + std::to_string(frameBytes() + (frameBytes() - 1) / 3) +
       " at least, and it is " + std::to_string(budgetBytes_));
 }
 

@@ -1,13 +1,17 @@
 #include "BuildCommand.h"
 
+#include "BoxOption.h"
 #include "ByteSize.h"
 #include "CancelSignal.h"
 #include "InputFaults.h"
 #include "InputFiles.h"
+#include "InputLists.h"
 #include "KnownWords.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
 #include "Values.h"
+
+#include "pointfront/Query/InputBox.h"
 
 #include <nlohmann/json.hpp>
 
@@ -61,6 +65,8 @@ void BuildCommand::declare(CLI::App& program)
       "A small store beside the output, to look at while it is built: auto or none (auto)")
     ->check(knownWords({ "auto", "none" }));
   app_->add_flag("--json", json_, "Print the report as one JSON object");
+  declareBox(*app_, "Only points inside or on this box, in the inputs' coordinates",
+    [this](const Bounds& box) { box_ = box; });
   declareTiles();
   addOnError(*app_, options_.onFault, &options_.wholeInputs);
   sourceChoice_.declare(*app_);
@@ -84,12 +90,18 @@ Result<OpenedInputs> BuildCommand::openSources() const
   const auto holdsPoints = [&formats](const std::string& path)
   { return formats.mayHoldPoints(path); };
   std::vector<InputFault> absent;
-  Result<InputFileList> files =
-    findInputFiles(inputs_, formats.extensions(), holdsPoints, &absent, SourceFormats::isStore);
+  Result<ListedInputs> named = withoutLists(inputs_, options_.box.get());
+  if (!named)
+  {
+    return named.error();
+  }
+  Result<InputFileList> files = findInputFiles(
+    named->files, formats.extensions(), holdsPoints, &absent, SourceFormats::isStore);
   if (!files)
   {
     return files.error();
   }
+  files->warnings.insert(files->warnings.end(), named->warnings.begin(), named->warnings.end());
   for (const std::string& warning : files->warnings)
   {
     warn(name(), warning);
@@ -99,6 +111,11 @@ Result<OpenedInputs> BuildCommand::openSources() const
   if (!inputs)
   {
     return inputs;
+  }
+  if (Result<void> some = options_.box ? options_.box->keepInside(inputs->sources) : Result<void>();
+      !some)
+  {
+    return some.error();
   }
   for (const std::unique_ptr<PointSource>& source : inputs->sources)
   {
@@ -137,9 +154,8 @@ Result<BuildReport> BuildCommand::buildFrom(PointSources& sources, const Attribu
   return run.run(sources, passes, display.function());
 }
 
-Result<void> BuildCommand::run()
+Result<void> BuildCommand::takeOptions()
 {
-  const CancelSignal signal(CancelSignal::Mode::Finish);
   if (precision_ > 0.0)
   {
     options_.precision = precision_;
@@ -153,6 +169,25 @@ Result<void> BuildCommand::run()
   if (attributes_ != "all")
   {
     options_.attributes = splitList(attributes_);
+  }
+  if (box_)
+  {
+    Result<std::shared_ptr<InputBox>> box = InputBox::make(*box_);
+    if (!box)
+    {
+      return makeError(box.error().kind, "--box: " + box.error().what);
+    }
+    options_.box = std::move(*box);
+  }
+  return {};
+}
+
+Result<void> BuildCommand::run()
+{
+  const CancelSignal signal(CancelSignal::Mode::Finish);
+  if (Result<void> right = takeOptions(); !right)
+  {
+    return right;
   }
   if (tiles_)
   {
@@ -178,26 +213,34 @@ Result<void> BuildCommand::run()
   report->inputsSkipped.insert(
     report->inputsSkipped.begin(), inputs->skipped.begin(), inputs->skipped.end());
   warnOfBuild(sources, *report);
-  const bool skips = options_.onFault == OnFault::Skip;
-  if (json_)
-  {
-    std::printf("%s\n", buildReportJson(*report, peakResidentBytes(), skips).c_str());
-    return {};
-  }
-  const std::string rejected = rejectionText(*report);
-  const std::string leftOut =
-    (rejected.empty() ? "" : "; left out: " + rejected) + skippedText(report->inputsSkipped);
-  std::printf("%s: %llu points in %llu nodes, %s, %.1f s (%.2f M points/s)%s\n",
-    options_.outputPath.c_str(), static_cast<unsigned long long>(report->pointsStored),
-    static_cast<unsigned long long>(report->nodes), byteSizeText(report->bytesWritten).c_str(),
-    report->seconds,
-    report->seconds > 0.0 ? static_cast<double>(report->pointsStored) / report->seconds * 1e-6
-                          : 0.0,
-    leftOut.c_str());
+  tell(*report);
   return {};
 }
 
-std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes, bool skips)
+void BuildCommand::tell(const BuildReport& report) const
+{
+  if (json_)
+  {
+    const bool skips = options_.onFault == OnFault::Skip;
+    const std::string text = buildReportJson(report, peakResidentBytes(), skips, box_.has_value());
+    std::printf("%s\n", text.c_str());
+    return;
+  }
+  const std::string rejected = rejectionText(report);
+  const std::string leftOut = (rejected.empty() ? "" : "; left out: " + rejected) +
+    (report.pointsOutside > 0 ? "; outside of the box: " + std::to_string(report.pointsOutside)
+                              : "") +
+    skippedText(report.inputsSkipped);
+  std::printf("%s: %llu points in %llu nodes, %s, %.1f s (%.2f M points/s)%s\n",
+    options_.outputPath.c_str(), static_cast<unsigned long long>(report.pointsStored),
+    static_cast<unsigned long long>(report.nodes), byteSizeText(report.bytesWritten).c_str(),
+    report.seconds,
+    report.seconds > 0.0 ? static_cast<double>(report.pointsStored) / report.seconds * 1e-6 : 0.0,
+    leftOut.c_str());
+}
+
+std::string buildReportJson(
+  const BuildReport& report, std::uint64_t peakBytes, bool skips, bool boxed)
 {
   nlohmann::ordered_json object;
   object["points_read"] = report.pointsRead;
@@ -206,6 +249,10 @@ std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes, 
   for (const auto& [reason, count] : report.pointsRejected)
   {
     object["points_rejected"][reason] = count;
+  }
+  if (boxed)
+  {
+    object["points_outside"] = report.pointsOutside;
   }
   if (skips)
   {

@@ -31,6 +31,9 @@ private:
   /// One step of --only, and what it prints.
   Result<void> runStep(TilesBuild& build);
   Result<void> tell(const TilesReport& report) const;
+  void tell(const BuildReport& report) const;
+  /// From the words of the command line to options_.
+  Result<void> takeOptions();
   /// Opens every input, but for those to skip; warns of what was wrong and survived.
   Result<OpenedInputs> openSources() const;
   /// Passes, preview and build, with progress on stderr. `sources` becomes what the passes gave.
@@ -49,14 +52,18 @@ private:
   std::string refinement_ = "add";
   std::string layers_; ///< empty: by class if any point is classified
   double precision_ = 0.0;
+  std::optional<Bounds> box_;
   bool json_ = false;
   bool tiles_ = false;
   std::string tileEdge_ = "auto";
   std::string only_; ///< a step of a build of tiles; empty: all
+  std::string published_; ///< address that tiles were copied to
   std::string decode_ = "auto"; ///< once, twice
 };
 
-/// The keys of `build --json`; with `skips` also those of inputs that were left out.
-std::string buildReportJson(const BuildReport& report, std::uint64_t peakBytes, bool skips);
+/// The keys of `build --json`; with `skips` also those of inputs that were left out, with `boxed`
+/// that of points outside of the box.
+std::string buildReportJson(
+  const BuildReport& report, std::uint64_t peakBytes, bool skips, bool boxed = false);
 
 } // namespace pointfront

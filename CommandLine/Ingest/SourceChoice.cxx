@@ -76,6 +76,7 @@ SourceOptions SourceChoice::options(const BuildOptions& build) const
   options.survey.threads = build.threads;
   options.survey.cancelled = [] { return CancelSignal::requested(); };
   options.temporaryFolder = build.temporaryFolder;
+  options.box = build.box;
   return options;
 }
 

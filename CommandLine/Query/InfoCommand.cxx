@@ -2,6 +2,7 @@
 
 #include "CancelSignal.h"
 #include "EpochOption.h"
+#include "FarOptions.h"
 #include "InputFiles.h"
 #include "SourceFormats.h"
 #include "SourceInfo.h"
@@ -168,6 +169,7 @@ Result<void> InfoCommand::tell(
 
 Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_json& reports) const
 {
+  const TrafficCounts before = ByteTraffic::ofProcess().counts();
   Result<std::shared_ptr<const StoredCloud>> store = StoredCloudFormats::ofProcess().open(path);
   if (!store)
   {
@@ -194,13 +196,20 @@ Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_j
   {
     warn(name(), path + ": " + warning);
   }
+  const TrafficCounts traffic = ByteTraffic::ofProcess().counts().since(before);
+  const bool far = traffic.any() || isAddress(path);
   if (!json_)
   {
-    print(storeText(description, hierarchy) + (statistics ? statisticsText(*statistics) : ""));
+    print(storeText(description, hierarchy) + (far ? trafficText(traffic) : "") +
+      (statistics ? statisticsText(*statistics) : ""));
     return {};
   }
   reports.push_back(storeJson(description, hierarchy));
   reports.back()["path"] = path;
+  if (far)
+  {
+    addTraffic(reports.back()["traffic"], traffic);
+  }
   if (statistics)
   {
     reports.back()["stats"] = statisticsJson(*statistics);

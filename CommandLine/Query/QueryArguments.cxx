@@ -1,5 +1,6 @@
 #include "QueryArguments.h"
 
+#include "BoxOption.h"
 #include "MapGeometry.h"
 #include "Values.h"
 
@@ -42,23 +43,7 @@ void QueryArguments::declare(CLI::App& app)
 
 void QueryArguments::declareRegions(CLI::App& app)
 {
-  const auto box = [this](const CLI::results_t& words)
-  {
-    const auto numbers = parseNumbers<6>(words.back());
-    if (!numbers || (*numbers)[0] > (*numbers)[3] || (*numbers)[1] > (*numbers)[4] ||
-      (*numbers)[2] > (*numbers)[5])
-    {
-      throw CLI::ParseError("--box: '" + words.back() +
-          "' is not a box: write x0,y0,z0,x1,y1,z1 with lower before upper corner",
-        2);
-    }
-    const auto& n = *numbers;
-    box_ = Bounds{ { n[0], n[1], n[2] }, { n[3], n[4], n[5] } };
-    return true;
-  };
-  app.add_option("--box", box, "Only points inside or on this box")
-    ->type_name("x0,y0,z0,x1,y1,z1")
-    ->expected(1);
+  declareBox(app, "Only points inside or on this box", [this](const Bounds& box) { box_ = box; });
   app
     .add_option("--polygon", polygonPath_,
       "Only points above or below the areas of this file (GeoJSON or WKT)")

@@ -89,8 +89,9 @@ Result<void> SoftwareScene::shareMemory()
   cost.pixelBytes += blends ? sizeof(float) : 0; // the nearest depth
   const std::int64_t pixels = std::int64_t(options_.size[0]) * options_.size[1];
   const auto most = static_cast<std::size_t>(SoftwareRasteriser::keptPictures(pixels));
-  const auto kept = std::min(most, stores_.count());
-  cost.pixelBytes += stores_.count() > 1 ? kept * sizeof(RasterKey) : 0; // keys of last pictures
+  // Keys of last pictures: each store has one of each part. One alone is that of a thread.
+  const auto pictures = static_cast<std::size_t>(targets) * stores_.count();
+  cost.pixelBytes += pictures > 1 ? std::min(most, pictures) * sizeof(RasterKey) : 0;
   cost.threadPixelBytes = sizeof(RasterKey) + (blends ? 4 * sizeof(std::uint32_t) : 0);
   cost.marginPixels = rasterMargin;
   cost.threads = ThreadCrew::ofProcess().threads();

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
+#include <string>
+
 namespace pointfront
 {
 
@@ -57,6 +60,24 @@ TEST(PictureMemory, AFrameTakesThreeQuartersAtMostByAsManyThreadsAsFit)
   const Result<void> refused = share(16)->checkFrame();
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("1024 x 1024"), std::string::npos);
+}
+
+TEST(PictureMemory, TheLeastThatAFrameTakesIsEnoughAndAByteLessIsNot)
+{
+  for (const std::uint64_t pixelBytes : { 4u, 5u, 6u })
+  {
+    const PictureCost cost = plainCost(pixelBytes);
+    const auto checked = [&](std::uint64_t budget) {
+      return PictureMemory::share({ 100, 101 }, budget, cost)->checkFrame();
+    };
+    const Result<void> refused = checked(20000);
+    ASSERT_FALSE(refused);
+    const std::string& what = refused.error().what;
+    const std::string before = "--memory ";
+    const std::uint64_t least = std::stoull(what.substr(what.find(before) + before.size()));
+    EXPECT_TRUE(checked(least)) << least;
+    EXPECT_FALSE(checked(least - 1)) << least;
+  }
 }
 
 TEST(PictureMemory, ThreadsHaveBuffersWithMargins)

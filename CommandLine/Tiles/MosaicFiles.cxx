@@ -239,6 +239,7 @@ OrderedJson TileRecord::json() const
   object["points_rejected"] = rejected;
   object["warnings"] = warnings;
   object["findings"] = findings;
+  object["findings_of_inputs"] = ofInputs;
   return object;
 }
 
@@ -257,6 +258,7 @@ TileRecord TileRecord::of(const Json& json)
   record.rejected = json.at("points_rejected").get<std::map<std::string, std::uint64_t>>();
   record.warnings = json.at("warnings").get<std::vector<std::string>>();
   record.findings = json.at("findings").get<std::vector<std::string>>();
+  record.ofInputs = json.at("findings_of_inputs").get<std::vector<std::string>>();
   return record;
 }
 

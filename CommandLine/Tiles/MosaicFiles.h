@@ -95,6 +95,7 @@ struct TileRecord
   std::map<std::string, std::uint64_t> rejected;
   std::vector<std::string> warnings;
   std::vector<std::string> findings; ///< findings of the passes, for the tile with its margin
+  std::vector<std::string> ofInputs; ///< findings that name inputs or are of all of them
 
   nlohmann::ordered_json json() const;
   static TileRecord of(const nlohmann::json& json);

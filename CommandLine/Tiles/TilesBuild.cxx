@@ -4,6 +4,7 @@
 #include "KnownSystems.h"
 
 #include "pointfront/Collection/CollectionWriter.h"
+#include "pointfront/Tiles/CollectionCloud.h"
 
 #include <algorithm>
 #include <chrono>
@@ -33,6 +34,24 @@ std::uint64_t sumOf(const std::map<std::string, std::uint64_t>& counts)
     sum += count;
   }
   return sum;
+}
+
+/// A collection as this build makes it of its tiles, which nobody has changed.
+bool isOf(const std::string& path, const std::vector<TileRecord>& records)
+{
+  const auto cloud = CollectionCloud::open(path);
+  if (!cloud)
+  {
+    return false;
+  }
+  const CollectionRecord& is = (*cloud)->record();
+  return is.state == 1 && is.tiles.size() == records.size() &&
+    std::equal(records.begin(), records.end(), is.tiles.begin(),
+      [](const TileRecord& record, const CollectedTile& tile)
+      {
+        return tile.is.address == "tiles/" + record.file && tile.is.identity == record.identity &&
+          tile.is.epoch.empty();
+      });
 }
 } // namespace
 
@@ -157,6 +176,7 @@ void TilesBuild::tellWarnings(const std::vector<TileRecord>& records) const
 {
   std::map<std::string, std::vector<std::string>> warnings;
   std::map<std::string, std::vector<std::string>> findings;
+  std::set<std::string> ofInputs;
   for (const TileRecord& record : records)
   {
     const std::string tile = record.file.substr(0, record.file.rfind('-'));
@@ -168,6 +188,7 @@ void TilesBuild::tellWarnings(const std::vector<TileRecord>& records) const
     {
       findings[text].push_back(tile);
     }
+    ofInputs.insert(record.ofInputs.begin(), record.ofInputs.end());
   }
   const auto tell = [this](const auto& texts, const char* one, const char* many)
   {
@@ -178,6 +199,10 @@ void TilesBuild::tellWarnings(const std::vector<TileRecord>& records) const
       request_.warn(where + ": " + text);
     }
   };
+  for (const std::string& text : ofInputs)
+  {
+    request_.warn(text);
+  }
   tell(warnings, "", "");
   tell(findings, " and its margin", " and their margins");
 }
@@ -218,7 +243,9 @@ Result<void> TilesBuild::writeCollection(const std::vector<TileRecord>& records)
   for (const TileRecord& record : records)
   {
     TileRequest request;
-    request.path = request_.folder + "/tiles/" + record.file;
+    request.path = storePath(record.file);
+    request.address = "tiles/" + record.file;
+    request.identity = record.identity;
     request.name = record.file.substr(0, record.file.rfind('-'));
     requests.push_back(std::move(request));
     content += record.file + toJson(record.identity).dump();
@@ -233,6 +260,10 @@ Result<void> TilesBuild::writeCollection(const std::vector<TileRecord>& records)
     if (ours && before->key == key)
     {
       return {};
+    }
+    if (!ours && now && isOf(path, records)) // a kill came before the note
+    {
+      return replaceFile(work("collection.json"), CollectionNote{ key, *now }.json().dump(1));
     }
     if (!ours && !request_.force)
     {

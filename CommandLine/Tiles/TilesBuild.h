@@ -31,6 +31,8 @@ struct TilesRequest
 {
   std::string folder;
   double edge = 0.0; ///< edge of a tile; 0: by the number of points
+  /// Tiles that are done lie in its folder "tiles", and not in that of `folder`; empty: there.
+  std::string published;
   bool force = false; ///< begin anew, or replace a collection that was changed since
   nlohmann::json settings; ///< the options that decide about the result
   BuildOptions options; ///< options of each tile; without its output
@@ -80,6 +82,7 @@ private:
   std::string work(const std::string& name) const { return request_.folder + "/work/" + name; }
   std::string surveyPath(std::size_t input) const;
   std::string tilePath(const TileIndex& tile) const;
+  std::string storePath(const std::string& file) const;
   std::string keptPath(std::size_t input) const;
   Result<void> loadPlan();
   Result<void> loadTiles();

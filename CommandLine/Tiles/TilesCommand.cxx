@@ -49,14 +49,19 @@ void BuildCommand::declareTiles()
     ->check([](const std::string& text) { return checkStep(text); })
     ->type_name("plan|survey:N|settle|tile:NAME|collect")
     ->needs(tiles);
+  app_
+    ->add_option("--published", published_,
+      "With --only: tiles that are done lie below this address, in tiles/, and not below OUT")
+    ->type_name("ADDRESS")
+    ->needs("--only");
 }
 
 nlohmann::json BuildCommand::tileSettings() const
 {
   // These do not decide about the bytes, or are told apart otherwise.
   static const std::set<std::string> free = { "--output", "--memory", "--threads", "--temp",
-    "--force", "--progress", "--preview", "--json", "--tiles", "--only", "--decode", "--help",
-    "--on-error" };
+    "--force", "--progress", "--preview", "--json", "--tiles", "--only", "--published", "--decode",
+    "--help", "--on-error" };
   nlohmann::json settings = nlohmann::json::object();
   for (const CLI::Option* option : app_->get_options())
   {
@@ -78,6 +83,11 @@ Result<void> BuildCommand::buildTiles()
     return refuse("--tiles with --refinement replace: a collection of means would show means of "
                   "means; build one store, or leave --refinement out");
   }
+  if (box_)
+  {
+    return refuse("--tiles with --box: tiles are of whole inputs; build one store of the box, or "
+                  "export the box and build tiles of that");
+  }
   const PassChoice choice = passes_.choice();
   if (choice.normalsEps > 0.0)
   {
@@ -88,6 +98,7 @@ Result<void> BuildCommand::buildTiles()
   ProgressDisplay display(*ProgressDisplay::styleOf(progress_));
   TilesRequest request;
   request.folder = options_.outputPath;
+  request.published = published_;
   request.edge = tileEdge_ == "auto" ? 0.0 : std::stod(tileEdge_);
   request.force = options_.overwrite;
   request.settings = tileSettings();

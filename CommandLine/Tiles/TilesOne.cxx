@@ -2,6 +2,7 @@
 #include "InputIdentity.h"
 #include "TilesBuild.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Mosaic/EmptySource.h"
 
 #include <algorithm>
@@ -13,13 +14,17 @@ namespace
 {
 namespace fs = std::filesystem;
 
-std::vector<std::string> findingsOf(const AttributePasses& passes)
+/// Findings of those passes that find something of inputs, or of all others.
+std::vector<std::string> findingsOf(const AttributePasses& passes, bool ofInputs)
 {
   std::vector<std::string> all;
   for (const auto& pass : passes)
   {
-    const std::vector<std::string> found = pass->findings();
-    all.insert(all.end(), found.begin(), found.end());
+    if (pass->findsInputs() == ofInputs)
+    {
+      const std::vector<std::string> found = pass->findings();
+      all.insert(all.end(), found.begin(), found.end());
+    }
   }
   return all;
 }
@@ -55,6 +60,13 @@ std::optional<TileIndex> tileNamed(const MosaicTiles& tiles, const std::string& 
 std::string TilesBuild::tilePath(const TileIndex& tile) const
 {
   return work("tile-" + tile.name() + ".json");
+}
+
+/// Path or address of a store that is done.
+std::string TilesBuild::storePath(const std::string& file) const
+{
+  const std::string& place = request_.published.empty() ? request_.folder : request_.published;
+  return place + "/tiles/" + file;
 }
 
 Result<void> TilesBuild::loadTiles()
@@ -209,8 +221,9 @@ std::optional<TileRecord> TilesBuild::tileDone(const TileIndex& tile) const
   }
   const Result<std::string> key = tileKey(tile, record->margin);
   std::error_code failure;
-  const std::string path = request_.folder + "/tiles/" + record->file;
-  if (!key || *key != record->key || !fs::exists(path, failure))
+  const std::string path = storePath(record->file);
+  const bool there = isAddress(path) || fs::exists(path, failure);
+  if (!key || *key != record->key || !there)
   {
     return std::nullopt;
   }
@@ -265,7 +278,8 @@ Result<void> TilesBuild::buildNow(const TileIndex& tile, const ProgressFunction&
   record.cpuSeconds = report.cpuSeconds;
   record.rejected = report.pointsRejected;
   record.warnings = report.warnings;
-  record.findings = findingsOf(*passes);
+  record.findings = findingsOf(*passes, false);
+  record.ofInputs = findingsOf(*passes, true);
   std::error_code failure;
   fs::rename(meanwhile, folder + record.file, failure);
   if (failure)

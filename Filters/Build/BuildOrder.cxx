@@ -2,7 +2,10 @@
 
 #include "ChosenPasses.h"
 #include "InputFiles.h"
+#include "InputLists.h"
 #include "SourceFormats.h"
+
+#include "pointfront/Query/InputBox.h"
 
 namespace pointfront
 {
@@ -11,24 +14,52 @@ namespace
 
 Result<OpenedInputs> opened(const BuildOrder& order, std::vector<std::string>& findings)
 {
-  const SourceFormats formats;
+  SourceOptions sourceOptions;
+  sourceOptions.box = order.options.box;
+  const SourceFormats formats(sourceOptions);
   const auto holdsPoints = [&formats](const std::string& path)
   { return formats.mayHoldPoints(path); };
   std::vector<InputFault> absent;
-  Result<InputFileList> files =
-    findInputFiles(order.files, formats.extensions(), holdsPoints, &absent, SourceFormats::isStore);
+  Result<ListedInputs> named = withoutLists(order.files, order.options.box.get());
+  if (!named)
+  {
+    return named.error();
+  }
+  Result<InputFileList> files = findInputFiles(
+    named->files, formats.extensions(), holdsPoints, &absent, SourceFormats::isStore);
   if (!files)
   {
     return files.error();
   }
-  findings = std::move(files->warnings);
+  findings = std::move(named->warnings);
+  findings.insert(findings.end(), files->warnings.begin(), files->warnings.end());
   return openInputs(files->paths, formats, order.options.onFault, {}, absent);
+}
+
+PointSources made(const BuildOrder& order)
+{
+  PointSources sources = order.made();
+  for (std::unique_ptr<PointSource>& source : sources)
+  {
+    source = order.options.box ? order.options.box->cut(std::move(source)) : std::move(source);
+  }
+  return sources;
 }
 
 } // namespace
 
-Result<BuildReport> carryOut(const BuildOrder& order, const ProgressFunction& progress)
+Result<BuildReport> carryOut(const BuildOrder& request, const ProgressFunction& progress)
 {
+  BuildOrder order = request;
+  if (order.box)
+  {
+    Result<std::shared_ptr<InputBox>> box = InputBox::make(*order.box);
+    if (!box)
+    {
+      return box.error();
+    }
+    order.options.box = std::move(*box);
+  }
   const Result<AttributePasses> passes = chosenPasses(order.passes);
   if (!passes)
   {
@@ -36,10 +67,17 @@ Result<BuildReport> carryOut(const BuildOrder& order, const ProgressFunction& pr
   }
   std::vector<std::string> findings;
   Result<OpenedInputs> inputs =
-    order.made ? OpenedInputs{ order.made(), {} } : opened(order, findings);
+    order.made ? OpenedInputs{ made(order), {} } : opened(order, findings);
   if (!inputs)
   {
     return inputs.error();
+  }
+  if (const auto& box = order.options.box)
+  {
+    if (Result<void> some = box->keepInside(inputs->sources); !some)
+    {
+      return some.error();
+    }
   }
   BuildRun run(order.options, order.preview,
     [&findings](const std::string& finding) { findings.push_back(finding); });

@@ -1,11 +1,13 @@
 #pragma once
 
+#include "pointfront/Base/Bounds.h"
 #include "pointfront/Base/Progress.h"
 #include "pointfront/Points/AttributePass.h"
 #include "pointfront/Points/PassChoice.h"
 #include "pointfront/Preview/BuildRun.h"
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +19,8 @@ struct BuildOrder
 {
   std::vector<std::string> files; ///< and patterns and folders, as the tool takes them
   std::function<PointSources()> made; ///< instead of files; called once
-  BuildOptions options;
+  BuildOptions options; ///< but for its box, which is made of the following one
+  std::optional<Bounds> box; ///< only points inside or on it, in the inputs' coordinates
   PassChoice passes;
   PreviewOptions preview;
 };

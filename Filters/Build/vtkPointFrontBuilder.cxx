@@ -106,6 +106,13 @@ pointfront::BuildOrder vtkPointFrontBuilder::Content::Order(
   {
     options.precision = builder.Precision;
   }
+  if (builder.UseBox)
+  {
+    const double* const box = builder.Box;
+    order.box.emplace();
+    order.box->low = { box[0], box[2], box[4] };
+    order.box->high = { box[1], box[3], box[5] };
+  }
   if (!this->Attributes.empty())
   {
     options.attributes = this->Attributes;
@@ -179,6 +186,7 @@ void vtkPointFrontBuilder::Content::Report(
   }
   builder.NumberOfFilesSkipped = static_cast<int>(built.inputsSkipped.size());
   builder.NumberOfPointsRejected = static_cast<vtkIdType>(built.pointsRead - built.pointsStored);
+  builder.NumberOfPointsOutside = static_cast<vtkIdType>(built.pointsOutside);
   builder.NumberOfPointsRead = static_cast<vtkIdType>(built.pointsRead);
   builder.NumberOfPointsStored = static_cast<vtkIdType>(built.pointsStored);
   builder.NumberOfNodes = static_cast<vtkIdType>(built.nodes);
@@ -389,6 +397,13 @@ void vtkPointFrontBuilder::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "NumberOfThreads: " << this->NumberOfThreads << "\n";
   os << indent << "NodePoints: " << this->NodePoints << "\n";
   os << indent << "Precision: " << this->Precision << "\n";
+  os << indent << "UseBox: " << this->UseBox << "\n";
+  os << indent << "Box:";
+  for (const double end : this->Box)
+  {
+    os << " " << end;
+  }
+  os << "\n";
   os << indent << "Structure: " << (this->Structure == KDTREE ? "kd-tree" : "octree") << "\n";
   os << indent << "Refinement: " << (this->Refinement == REPLACE ? "replace" : "add") << "\n";
   os << indent << "Layers: " << this->Layers << "\n";

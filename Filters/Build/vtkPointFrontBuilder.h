@@ -99,6 +99,20 @@ public:
   ///@}
 
   ///@{
+  /**
+   * Only points inside or on a box, in the coordinates of the files: xmin, xmax, ymin, ymax, zmin,
+   * zmax; ends may be infinite. Of files that have an index (stores, COPC, EPT, collections, and
+   * all addresses) no more is read than the box needs. Off by default. Write() fails if a lower end
+   * lies above the upper one, and if no point lies in the box.
+   */
+  vtkSetMacro(UseBox, bool);
+  vtkGetMacro(UseBox, bool);
+  vtkBooleanMacro(UseBox, bool);
+  vtkSetVector6Macro(Box, double);
+  vtkGetVector6Macro(Box, double);
+  ///@}
+
+  ///@{
   /// Shape of the hierarchy. A kd-tree has RefinementType ADD only. Default OCTREE.
   enum StructureType
   {
@@ -270,6 +284,7 @@ public:
   vtkGetMacro(NumberOfPointsRead, vtkIdType);
   vtkGetMacro(NumberOfPointsStored, vtkIdType);
   vtkGetMacro(NumberOfPointsRejected, vtkIdType); ///< a warning counts them by reason
+  vtkGetMacro(NumberOfPointsOutside, vtkIdType); ///< read, and not in the Box
   vtkGetMacro(NumberOfFilesSkipped, int);
   vtkGetMacro(NumberOfNodes, vtkIdType);
   vtkGetMacro(BytesWritten, vtkTypeInt64);
@@ -306,6 +321,8 @@ protected:
   int NumberOfThreads = 0;
   int NodePoints = 16384;
   double Precision = 0.0;
+  bool UseBox = false;
+  double Box[6] = { 0.0, 1.0, 0.0, 1.0, 0.0, 1.0 };
   vtkIdType PointsDone = 0;
   vtkIdType PointsTotal = 0;
   double PointsPerSecond = 0.0;
@@ -313,6 +330,7 @@ protected:
   vtkIdType NumberOfPointsRead = 0;
   vtkIdType NumberOfPointsStored = 0;
   vtkIdType NumberOfPointsRejected = 0;
+  vtkIdType NumberOfPointsOutside = 0;
   int NumberOfFilesSkipped = 0;
   vtkIdType NumberOfNodes = 0;
   vtkTypeInt64 BytesWritten = 0;

@@ -265,6 +265,10 @@ std::vector<std::string> NormalsPass::findings() const
   {
     return {};
   }
+  if (without_ == 1)
+  {
+    return { "1 point has no normal: it has fewer than three neighbours, or all are on one line." };
+  }
   return { std::to_string(without_) +
     " points have no normal: they have fewer than three neighbours, or all are on one line." };
 }

@@ -103,6 +103,11 @@ std::vector<std::string> ScanNormalsPass::findings() const
   {
     return {};
   }
+  if (*without_ == 1)
+  {
+    return { "1 point has no normal: no scan line beside its own has a point to make a triangle "
+             "with." };
+  }
   return { std::to_string(*without_) +
     " points have no normal: no scan line beside theirs has a point to make a triangle with." };
 }

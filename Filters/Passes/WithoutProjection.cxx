@@ -80,6 +80,7 @@ public:
       "reference system are passed on unchecked."
     };
   }
+  bool findsInputs() const override { return true; }
 };
 } // namespace
 

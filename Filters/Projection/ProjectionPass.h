@@ -37,6 +37,7 @@ public:
   }
   Result<PointSources> apply(PointSources sources, const PassResources& resources) const override;
   std::vector<std::string> findings() const override { return findings_; }
+  bool findsInputs() const override { return true; }
   /// The name of a system may be a file.
   std::vector<std::string> filesRead() const override
   {

@@ -17,8 +17,7 @@ namespace pointfront
 /// Opening  of laszip nodes reads the first page of the hierarchy and some nodes; the other pages
 ///          are read when somebody looks into them, or by openWhole() at once. Of binary and
 ///          zstandard ones every node is looked through once for the values of its attributes.
-/// Disk     the file of a node is read by fetch(); decode() opens it once more, from the disk
-///          cache.
+/// Disk     the file of a node is read by fetch(), once; decode() has its bytes.
 class EPTTreeFormat final : public StoredCloudFormat
 {
 public:

@@ -1,5 +1,6 @@
 #include "SourceFormats.h"
 
+#include "CloudFormats.h"
 #include "EPTFormat.h"
 #include "LASFormat.h"
 #include "PCDFormat.h"
@@ -21,8 +22,28 @@
 namespace pointfront
 {
 
-SourceFormats::SourceFormats(const SourceOptions& options)
+namespace
 {
+/// A cloud that is read piece by piece, never as a whole file.
+bool isReadByNodes(const std::string& path, bool boxed)
+{
+  if (isAddress(path) || std::filesystem::path(path).extension() == ".pfcollection")
+  {
+    return true;
+  }
+  std::error_code failure;
+  return boxed && std::filesystem::is_regular_file(path, failure) &&
+    StoredCloudFormats::ofProcess().accepts(path);
+}
+} // namespace
+
+SourceFormats::SourceFormats(const SourceOptions& options)
+  : box_(options.box)
+{
+  if (box_)
+  {
+    addCloudFormats(); // those that have an index
+  }
   formats_.push_back(std::make_unique<StoreInputFormat>());
   formats_.push_back(std::make_unique<LASFormat>());
   formats_.push_back(std::make_unique<PLYFormat>(options.survey));
@@ -87,11 +108,17 @@ const PointSourceFormat* SourceFormats::named(const std::string& path) const
 
 Result<std::unique_ptr<PointSource>> SourceFormats::open(const std::string& path) const
 {
-  if (isAddress(path))
+  Result<std::unique_ptr<PointSource>> source = openUncut(path);
+  return source && box_ ? box_->cut(std::move(*source)) : std::move(source);
+}
+
+Result<std::unique_ptr<PointSource>> SourceFormats::openUncut(const std::string& path) const
+{
+  if (isReadByNodes(path, box_ != nullptr))
   {
-    // Read as it is drawn: piece by piece, never as a whole file.
     Result<std::shared_ptr<const StoredCloud>> cloud = StoredCloudFormats::ofProcess().open(path);
-    return cloud ? StoredPoints::open(std::move(*cloud)) : cloud.error();
+    return cloud ? StoredPoints::open(std::move(*cloud), box_ ? &box_->bounds() : nullptr)
+                 : cloud.error();
   }
   std::error_code failure;
   if (!std::filesystem::exists(path, failure))

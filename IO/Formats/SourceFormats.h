@@ -3,6 +3,7 @@
 #include "TextFormat.h"
 
 #include "pointfront/Points/PointFileOpener.h"
+#include "pointfront/Query/InputBox.h"
 #include "pointfront/Table/ParallelChunks.h"
 
 #include <memory>
@@ -19,6 +20,9 @@ struct SourceOptions
   TextChoice text; ///< for text files
   SurveyOptions survey; ///< for files that are looked through when they are opened
   std::string temporaryFolder; ///< for what must be unpacked; empty: the system's
+  /// Files are cut to it. Of those that have an index (stores, side files, COPC, EPT, collections)
+  /// only the nodes that reach into it are read.
+  std::shared_ptr<InputBox> box;
 };
 
 /// The families of point files that this program reads. IO modules do not know each other: they
@@ -45,10 +49,13 @@ public:
   Result<std::unique_ptr<PointSource>> open(const std::string& path) const override;
 
 private:
+  /// The points of a file, whole unless an index names those in the box.
+  Result<std::unique_ptr<PointSource>> openUncut(const std::string& path) const;
   /// The format that the extension names, or none.
   const PointSourceFormat* named(const std::string& path) const;
 
   std::vector<std::unique_ptr<PointSourceFormat>> formats_;
+  std::shared_ptr<InputBox> box_;
 };
 
 } // namespace pointfront

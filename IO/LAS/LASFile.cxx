@@ -93,7 +93,9 @@ void dropOverlappingRecords(
 }
 
 /// First bytes of a far file: header and records of most files, and the tables at the end of many.
+/// Who opens many files knows better, and has fetched less.
 constexpr std::size_t headBytes = std::size_t(64) << 10;
+constexpr std::size_t headerBytes = 4096; ///< more than any header has
 constexpr std::size_t tailBytes = std::size_t(256) << 10;
 /// Extended records, up to the end of the file, that are read without a look at them. More are
 /// mostly a COPC's hierarchy, of which its reader needs some pages.
@@ -105,9 +107,9 @@ constexpr std::uint32_t mostFarRecords = 64;
 Result<void> wantRecords(SparseBytes& far, const LASHeader& header)
 {
   std::vector<HeldBytes::Part> parts;
-  if (header.pointOffset > headBytes)
+  if (header.pointOffset > headerBytes)
   {
-    parts.push_back({ headBytes, header.pointOffset - headBytes });
+    parts.push_back({ headerBytes, header.pointOffset - headerBytes });
   }
   std::uint64_t at = header.extendedRecordCount > 0 ? header.extendedRecordOffset : far.size();
   const bool all = at < far.size() && far.size() - at <= recordsAtOnceBytes;
@@ -185,7 +187,7 @@ Result<LASFile> LASFile::of(std::shared_ptr<const ByteSource> source)
     return made.error();
   }
   SparseBytes& far = **made;
-  if (Result<void> done = far.want({ { 0, headBytes } }); !done)
+  if (Result<void> done = far.want({ { 0, headerBytes } }); !done)
   {
     return done.error();
   }

@@ -1,6 +1,7 @@
 #include "Address.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/FarSettings.h"
 #include "pointfront/Threads/ForkHold.h"
 
 #include <algorithm>
@@ -48,6 +49,7 @@ struct Remembered
   {
     std::string userInfo;
     std::string query;
+    std::string settings;
   };
   std::map<std::string, std::string> addresses; ///< by their public forms
   std::map<std::string, Secret> secrets; ///< by origin and mark: of what lies beside an address
@@ -74,14 +76,14 @@ const std::string& saltOfProcess()
 /// weak password by it.
 std::string markOf(const Address& address)
 {
-  if (address.query.empty() && address.userInfo.empty())
+  if (address.query.empty() && address.userInfo.empty() && address.settings.empty())
   {
     return {};
   }
   char hash[24];
   std::snprintf(hash, sizeof hash, "%016llx",
     static_cast<unsigned long long>(
-      hashOf(saltOfProcess() + address.userInfo + '\n' + address.query)));
+      hashOf(saltOfProcess() + address.userInfo + '\n' + address.query + '\n' + address.settings)));
   return hashMark + std::string(hash);
 }
 } // namespace
@@ -97,6 +99,7 @@ Result<Address> Address::parse(std::string_view text)
     return makeError(Error::Kind::BadArgument,
       "not an address: scheme://host/path without spaces (write %20) is expected");
   }
+  address.settings = farSettingsTextOf(text);
   text.remove_prefix(address.scheme.size() + 3);
   text = text.substr(0, text.find('#'));
   const std::size_t query = text.find('?');
@@ -147,6 +150,11 @@ std::string Address::text() const
     (query.empty() ? "" : "?" + query);
 }
 
+std::string Address::textWithSettings() const
+{
+  return text() + (settings.empty() ? "" : "#far:" + settings);
+}
+
 std::string Address::publicForm() const
 {
   const std::string mark = markOf(*this);
@@ -187,10 +195,11 @@ std::string rememberAddress(const Address& address)
   const std::string mark = markOf(address);
   const ForkHold hold;
   Remembered& table = remembered(hold);
-  table.addresses[form] = address.text();
+  table.addresses[form] = address.textWithSettings();
   if (!mark.empty())
   {
-    table.secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query };
+    table.secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query,
+      address.settings };
   }
   return form;
 }
@@ -198,7 +207,8 @@ std::string rememberAddress(const Address& address)
 void rememberAddress(const Address& address, const std::string& mark)
 {
   const ForkHold hold;
-  remembered(hold).secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query };
+  remembered(hold).secrets[address.origin() + ' ' + mark] = { address.userInfo, address.query,
+    address.settings };
 }
 
 bool isMark(std::string_view text)
@@ -225,7 +235,8 @@ std::string addressOf(const std::string& text)
   }
   address->userInfo = secret->second.userInfo;
   address->query = secret->second.query;
-  return address->text();
+  address->settings = address->settings.empty() ? secret->second.settings : address->settings;
+  return address->textWithSettings();
 }
 
 } // namespace pointfront

@@ -16,6 +16,7 @@ struct Address
   std::string host; ///< with the port, if one is named
   std::string path; ///< begins with '/', as it was written
   std::string query; ///< without '?'; may be secret (signed addresses)
+  std::string settings; ///< FarSettings of its reading, as they write them; no server sees them
 
   /// Errors  BadArgument, without the address's secret parts: no host, control characters.
   static Result<Address> parse(std::string_view text);
@@ -24,7 +25,10 @@ struct Address
   Result<Address> redirected(const std::string& location) const;
   /// All of it, for the request. The fragment ("#...") of what was parsed is gone.
   std::string text() const;
-  /// Without what may be secret: instead of user, password and query it has a short mark ("?~..."),
+  /// The same with the settings, as parse() takes it.
+  std::string textWithSettings() const;
+  /// Without what may be secret: instead of user, password, query and settings it has a short mark
+  /// ("?~..."),
   /// so that addresses that differ in them stay different. The mark is another one in each process.
   /// For messages, and as the name of the cloud in this process.
   std::string publicForm() const;

@@ -2,9 +2,11 @@
 
 #include "TransferLoop.h"
 
+#include "pointfront/Disk/FarSettings.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Threads/ForkHold.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
 #include <map>
@@ -29,6 +31,12 @@ void dropPast(Entries& entries, Clock::time_point now)
   {
     one = one->second.until < now ? entries.erase(one) : std::next(one);
   }
+}
+
+bool isOffline(const Address& address)
+{
+  const Result<FarSettings> settings = FarSettings::parse(address.settings);
+  return settings && settings->offline.value_or(FarCache::offline());
 }
 
 std::shared_ptr<const ByteOpener> openerOfProcess()
@@ -66,13 +74,13 @@ struct RemoteOpener::Tables
   std::map<std::string, Silent> silent; ///< servers of which no answer came
   std::map<std::string, std::shared_future<Opened>> opening;
 
-  std::optional<Opened> find(const std::string& name, const std::string& server);
+  std::optional<Opened> find(const std::string& name, const std::string& server, bool offline);
   void note(const std::string& name, const Opened& opened);
 };
 
 /// The outcome of an opening a moment ago, if it still counts. The caller has the lock.
 std::optional<RemoteOpener::Opened> RemoteOpener::Tables::find(
-  const std::string& name, const std::string& server)
+  const std::string& name, const std::string& server, bool offline)
 {
   const Clock::time_point now = Clock::now();
   dropPast(failed, now);
@@ -100,6 +108,10 @@ std::optional<RemoteOpener::Opened> RemoteOpener::Tables::find(
                 "'" + name + "' has changed on its server while it was open; open it again"),
         now + failedFor });
     sources.erase(found);
+  }
+  if (offline)
+  {
+    return std::nullopt; // the cache may have it by now
   }
   if (const auto known = failed.find(name); known != failed.end())
   {
@@ -142,18 +154,47 @@ std::string RemoteOpener::publicForm(const std::string& text) const
   return address ? rememberAddress(*address) : text;
 }
 
+std::string RemoteOpener::passedOn(const std::string& from, const std::string& to) const
+{
+  const Result<Address> list = Address::parse(addressOf(from));
+  Result<Address> file = Address::parse(addressOf(to));
+  if (!list || list->settings.empty() || !file || !file->settings.empty())
+  {
+    return to;
+  }
+  file->settings = list->settings;
+  return rememberAddress(*file);
+}
+
 RemoteOpener::Opened RemoteOpener::openNow(
   const std::string& name, const Address& address, const FirstBytes& first, Tables& tables) const
 {
+  const Result<FarSettings> settings = FarSettings::parse(address.settings);
+  if (!settings)
+  {
+    return settings.error();
+  }
+  const Result<std::shared_ptr<const FarCache>> cache = FarCache::of(*settings);
+  if (!cache)
+  {
+    return cache.error();
+  }
   Result<Request> request = requestOf(address);
   if (!request)
   {
     return request.error();
   }
+  RemoteOptions options = options_;
+  if (settings->timeoutSeconds)
+  {
+    options.timeLimit = std::chrono::milliseconds(
+      std::max(1L, static_cast<long>(1000.0 * *settings->timeoutSeconds)));
+  }
   const Clock::time_point begin = Clock::now();
   const std::string server = request->address.origin();
-  const Result<std::shared_ptr<const RemoteSource>> opened = RemoteSource::open(
-    std::make_unique<const Conversation>(name, std::move(*request), options_), first);
+  const Result<std::shared_ptr<const RemoteSource>> opened =
+    RemoteSource::open(std::make_unique<const Conversation>(name, std::move(*request), options),
+      first, { *cache, settings->offline.value_or(FarCache::offline()) });
   if (opened)
   {
     return std::shared_ptr<const ByteSource>(*opened);
@@ -226,7 +267,7 @@ Result<std::shared_ptr<const ByteSource>> RemoteOpener::open(
     std::shared_future<Opened> other;
     {
       const std::lock_guard<std::mutex> lock(tables.mutex);
-      if (std::optional<Opened> known = tables.find(name, address->origin()))
+      if (std::optional<Opened> known = tables.find(name, address->origin(), isOffline(*address)))
       {
         return std::move(*known);
       }

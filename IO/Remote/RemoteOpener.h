@@ -18,6 +18,7 @@ namespace pointfront
 /// Failures  are those of the next second, too. A server of which no answer comes is not asked
 ///           again, for any of its files, for as long as it took to find that out: a list of 1,000
 ///           files of a dead server waits once.
+/// Settings  of an address (FarSettings) come before those of the environment.
 /// Stop      StopOfReads of the thread that opens; another that waits for its opening opens then.
 /// Fork      a child process has tables of its own.
 class RemoteOpener final : public ByteOpener
@@ -26,6 +27,7 @@ public:
   explicit RemoteOpener(RemoteOptions options);
   ~RemoteOpener() override;
   std::string publicForm(const std::string& address) const override;
+  std::string passedOn(const std::string& from, const std::string& to) const override;
   Result<std::shared_ptr<const ByteSource>> open(
     const std::string& address, const FirstBytes& first) const override;
 

@@ -92,12 +92,13 @@ void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size,
 
 } // namespace
 
-RemoteSource::RemoteSource(std::unique_ptr<const Conversation> conversation,
-  RemoteIdentity identity, std::shared_ptr<const FarCache> cache)
+RemoteSource::RemoteSource(
+  std::unique_ptr<const Conversation> conversation, RemoteIdentity identity, Local local)
   : ByteSource(conversation->name(), identity.bytes)
   , conversation_(std::move(conversation))
   , identity_(std::move(identity))
-  , cache_(std::move(cache))
+  , cache_(std::move(local.cache))
+  , offline_(local.offline)
   , kept_{ conversation_->place(), identity_.bytes, identity_.tag, identity_.changed }
 {
 }
@@ -114,13 +115,13 @@ ReadCost RemoteSource::cost() const
 }
 
 Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
-  std::unique_ptr<const Conversation> conversation, const FirstBytes& first)
+  std::unique_ptr<const Conversation> conversation, const FirstBytes& first, Local local)
 {
-  std::shared_ptr<const FarCache> cache = FarCache::ofProcess();
-  if (FarCache::offline())
+  if (local.offline)
   {
-    return openOffline(std::move(conversation), std::move(cache));
+    return openOffline(std::move(conversation), std::move(local));
   }
+  const std::shared_ptr<const FarCache>& cache = local.cache;
   // A file that was kept is asked only whether it is still the same.
   const bool known = cache && cache->last(conversation->place());
   // Whole blocks, so that they can be kept.
@@ -148,7 +149,7 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
     return done.error();
   }
   std::shared_ptr<RemoteSource> source(
-    new RemoteSource(std::move(conversation), std::move(*identity), std::move(cache)));
+    new RemoteSource(std::move(conversation), std::move(*identity), std::move(local)));
   source->ends_ = std::move(ends);
   if (source->cache_)
   {
@@ -163,9 +164,10 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
 
 /// As its server named it last.
 Result<std::shared_ptr<const RemoteSource>> RemoteSource::openOffline(
-  std::unique_ptr<const Conversation> conversation, std::shared_ptr<const FarCache> cache)
+  std::unique_ptr<const Conversation> conversation, Local local)
 {
-  const std::optional<FarIdentity> last = cache ? cache->last(conversation->place()) : std::nullopt;
+  const std::optional<FarIdentity> last =
+    local.cache ? local.cache->last(conversation->place()) : std::nullopt;
   if (!last)
   {
     return makeError(Error::Kind::NotFound,
@@ -173,7 +175,7 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::openOffline(
   }
   RemoteIdentity identity{ last->tag, last->date, last->bytes };
   return std::shared_ptr<const RemoteSource>(
-    new RemoteSource(std::move(conversation), std::move(identity), std::move(cache)));
+    new RemoteSource(std::move(conversation), std::move(identity), std::move(local)));
 }
 
 void RemoteSource::keepOnDisk(const WantedBytes& piece) const
@@ -219,6 +221,24 @@ bool RemoteSource::takeHeld(const ByteRange& range) const
     copyFrom(held.byOffset.at(at), range.offset, range.size, range.target);
   }
   return true;
+}
+
+/// The part of an interval that does not lie in the ends of the file, which are held.
+RemoteSource::Interval64 RemoteSource::withoutEnds(Interval64 needed) const
+{
+  for (const WantedBytes& end : ends_)
+  {
+    const std::uint64_t last = end.offset + end.bytes.size();
+    if (end.offset <= needed.first && last > needed.first && last < needed.second)
+    {
+      needed.first = std::max(needed.first, last / keptBytes * keptBytes); // whole blocks
+    }
+    else if (end.offset > needed.first && end.offset < needed.second && last >= needed.second)
+    {
+      needed.second = std::min(needed.second, (end.offset + keptBytes - 1) / keptBytes * keptBytes);
+    }
+  }
+  return needed;
 }
 
 /// Blocks of small reads are kept: what is asked for next often lies beside.
@@ -271,7 +291,8 @@ Result<void> RemoteSource::readUntil(
       !(cache_ && !changed_ && cache_->read(kept_, range.offset, range.size, range.target)))
     {
       missing.push_back(&range);
-      needed.push_back(neededFor(range, bytes(), cache_ != nullptr));
+      const Interval all = neededFor(range, bytes(), cache_ != nullptr);
+      needed.push_back(range.size > smallRead ? withoutEnds(all) : all);
     }
   }
   if (missing.empty())
@@ -283,7 +304,7 @@ Result<void> RemoteSource::readUntil(
     return makeError(Error::Kind::Unreadable,
       "'" + path() + "' has changed on its server while it was open; open it again");
   }
-  if (FarCache::offline())
+  if (offline_)
   {
     return makeError(Error::Kind::Unreadable,
       "'" + path() + "' is in the cache in part only, and no server is asked (offline)");
@@ -312,6 +333,10 @@ Result<void> RemoteSource::ask(const std::vector<const ByteRange*>& missing,
   }
   for (std::size_t i = 0; i < missing.size(); ++i)
   {
+    for (const WantedBytes& end : ends_)
+    {
+      copyFrom(end, missing[i]->offset, missing[i]->size, missing[i]->target);
+    }
     for (const WantedBytes& piece : pieces)
     {
       copyFrom(piece, missing[i]->offset, missing[i]->size, missing[i]->target);

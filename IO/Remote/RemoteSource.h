@@ -36,8 +36,14 @@ namespace pointfront
 class RemoteSource final : public ByteSource
 {
 public:
+  /// The cache on this machine's disk, and whether it is all that may be asked.
+  struct Local
+  {
+    std::shared_ptr<const FarCache> cache; ///< may be null
+    bool offline = false; ///< no server is asked
+  };
   static Result<std::shared_ptr<const RemoteSource>> open(
-    std::unique_ptr<const Conversation> conversation, const FirstBytes& first);
+    std::unique_ptr<const Conversation> conversation, const FirstBytes& first, Local local);
 
   std::uint64_t device() const override;
   ReadCost cost() const override;
@@ -59,21 +65,23 @@ private:
     std::vector<std::uint64_t> order; ///< their offsets, the oldest first
   };
 
-  RemoteSource(std::unique_ptr<const Conversation> conversation, RemoteIdentity identity,
-    std::shared_ptr<const FarCache> cache);
+  RemoteSource(
+    std::unique_ptr<const Conversation> conversation, RemoteIdentity identity, Local local);
   static Result<std::shared_ptr<const RemoteSource>> openOffline(
-    std::unique_ptr<const Conversation> conversation, std::shared_ptr<const FarCache> cache);
+    std::unique_ptr<const Conversation> conversation, Local local);
   /// Asks the server for those ranges. `needed`: what a request should have of each.
   Result<void> ask(const std::vector<const ByteRange*>& missing,
     const std::vector<Interval64>& needed, const ReadStop& stop) const;
   void keepOnDisk(const WantedBytes& piece) const;
   Blocks& blocks() const;
   bool takeHeld(const ByteRange& range) const;
+  Interval64 withoutEnds(Interval64 needed) const;
   void keepBlocks(const WantedBytes& piece, const Interval64& needed) const;
 
   const std::unique_ptr<const Conversation> conversation_;
   const RemoteIdentity identity_;
   const std::shared_ptr<const FarCache> cache_; ///< may be null
+  const bool offline_;
   const FarIdentity kept_; ///< the same identity, in the cache
   std::vector<WantedBytes> ends_; ///< head and tail, or the whole file
   mutable std::atomic<bool> changed_{ false }; ///< somebody has replaced the file

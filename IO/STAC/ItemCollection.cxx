@@ -324,7 +324,7 @@ Result<std::string> resolvedHref(const std::string& path, const std::string& hre
     {
       name = name.substr(2);
     }
-    return isAddress(name) ? withoutDots(name) : beside(path, name);
+    return beside(path, isAddress(name) ? withoutDots(name) : name);
   }
   if (local)
   {

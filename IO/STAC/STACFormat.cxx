@@ -17,7 +17,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::uint64_t mostListBytes = std::uint64_t(256) << 20; ///< 50,000 items with statistics
 constexpr std::size_t beginningBytes = std::size_t(64) << 10;
 
 bool isNamedVPC(const std::string& path)

@@ -2,6 +2,7 @@
 
 #include "pointfront/Store/StoredCloud.h"
 
+#include <cstdint>
 #include <memory>
 #include <string>
 
@@ -15,6 +16,9 @@ namespace pointfront
 class STACFormat final : public StoredCloudFormat
 {
 public:
+  static constexpr std::uint64_t mostListBytes = std::uint64_t(256)
+    << 20; ///< 50,000 items with statistics
+
   std::string name() const override { return "virtual point cloud"; }
   /// By the name `.vpc`, or by the beginning of a JSON text.
   bool accepts(const std::string& path) const override;

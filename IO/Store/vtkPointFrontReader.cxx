@@ -212,7 +212,12 @@ const std::string& vtkPointFrontReader::NameAt(vtkInformation* output, double& t
 bool vtkPointFrontReader::OpenStore(const std::string& name)
 {
   vtkStdString reason;
-  this->Store = vtkPointFrontStore::Open(name.c_str(), reason);
+  std::string named;
+  if (!this->FindName(name, named))
+  {
+    return false;
+  }
+  this->Store = vtkPointFrontStore::Open(named.c_str(), reason);
   if (!this->Store)
   {
     const bool far = pointfront::isAddress(name); // asked twice, a server may take twice its time
@@ -415,6 +420,7 @@ void vtkPointFrontReader::PrintSelf(ostream& os, vtkIndent indent)
      << (this->FileNames.empty() ? "(none)" : pointfront::publicForm(this->FileNames.front()))
      << "\n";
   os << indent << "NumberOfFileNames: " << this->FileNames.size() << "\n";
+  this->PrintSettings(os, indent);
   os << indent << "OverviewPoints: " << this->OverviewPoints << "\n";
   os << indent << "PointDataArraySelection:\n";
   this->PointDataArraySelection->PrintSelf(os, indent.GetNextIndent());

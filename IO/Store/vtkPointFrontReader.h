@@ -73,6 +73,26 @@ public:
   VTK_FILEPATH const char* GetFileName(int time) const;
   ///@}
 
+  ///@{
+  /**
+   * How addresses are read, where that differs from the environment's choice (docs/user/remote.md).
+   * Offline: 1: no server is asked, and the cloud is what the cache has; 0: servers are asked; -1
+   * (default): POINTFRONT_OFFLINE. CacheFolder: the folder of the cache, or "off"; null or empty
+   * (default): POINTFRONT_CACHE. CacheSize: most bytes in it, 0 for no cache; -1 (default):
+   * POINTFRONT_CACHE_SIZE. TimeLimit: seconds that a read waits while nothing comes; 0 (default):
+   * POINTFRONT_REMOTE_TIMEOUT. They travel with the name of the cloud: mappers read with them. With
+   * a path instead of an address they are an error.
+   */
+  vtkSetClampMacro(Offline, int, -1, 1);
+  vtkGetMacro(Offline, int);
+  vtkSetStdStringFromCharMacro(CacheFolder);
+  vtkGetCharFromStdStringMacro(CacheFolder);
+  vtkSetClampMacro(CacheSize, vtkTypeInt64, -1, VTK_TYPE_INT64_MAX);
+  vtkGetMacro(CacheSize, vtkTypeInt64);
+  vtkSetClampMacro(TimeLimit, double, 0.0, 999999.0);
+  vtkGetMacro(TimeLimit, double);
+  ///@}
+
   /// 1 if the file begins like a store. Cheap, by content, silent. An address is asked for.
   static int CanReadFile(VTK_FILEPATH const char* fileName);
 
@@ -128,6 +148,10 @@ protected:
   int RequestData(vtkInformation*, vtkInformationVector**, vtkInformationVector*) override;
 
   std::vector<std::string> FileNames;
+  int Offline = -1;
+  std::string CacheFolder;
+  vtkTypeInt64 CacheSize = -1;
+  double TimeLimit = 0.0;
   vtkIdType OverviewPoints = 200000;
   vtkNew<vtkDataArraySelection> PointDataArraySelection;
   vtkSmartPointer<vtkPointFrontStore> Store;
@@ -139,6 +163,9 @@ private:
     std::string name; ///< the store's
   };
   bool OpenStore(const std::string& name);
+  /// The name with the settings of addresses; false, and an error, if it cannot have them.
+  bool FindName(const std::string& name, std::string& named);
+  void PrintSettings(ostream& os, vtkIndent indent) const;
   void FindSteps();
   const std::string& NameAt(vtkInformation* output, double& time) const;
 

@@ -320,9 +320,9 @@ StyleEyeDome eyeDomeAt(const JSONPlace& place)
 
 LayerStyle layerStyleAt(const JSONPlace& place)
 {
-  place.expectKeys(
-    { "technique", "color", "size", "orientation", "opacity", "visible", "error_factor",
-      "budget_share", "blended", "accuracy", "rim_color", "wall_color", "where", "light", "edl" });
+  place.expectKeys({ "technique", "color", "size", "orientation", "opacity", "visible",
+    "error_factor", "budget_share", "blended", "accuracy", "rim_color", "wall_color", "where",
+    "epoch", "light", "edl" });
   LayerStyle style;
   const auto read = [&place](const char* key, auto& target, auto reader)
   {
@@ -350,6 +350,7 @@ LayerStyle layerStyleAt(const JSONPlace& place)
   read("rim_color", style.rim, colourCodeAt);
   read("wall_color", style.wall, wallAt);
   read("where", style.where, filterAt);
+  read("epoch", style.epoch, [](const JSONPlace& at) { return at.text("the name of an epoch"); });
   read("light", style.light, lightAt);
   read("edl", style.eyeDome, eyeDomeAt);
   return style;

@@ -206,6 +206,7 @@ Json layerStyle(const LayerStyle& style)
       return Json::array({ colourCode(wall[0]), colourCode(wall[1]) });
     });
   put("where", style.where, [](const FilterExpression& filter) { return filter.text; });
+  put("epoch", style.epoch, same);
   put("light", style.light, light);
   put("edl", style.eyeDome, eyeDome);
   return result;

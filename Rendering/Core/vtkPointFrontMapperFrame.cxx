@@ -252,10 +252,11 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
   pointfront::PlanRequest request = this->GetRequest(renderer, actor, look);
   if (moved || !view.Plan)
   {
-    // VTK's template draws plain points. The GPU has the nodes of batches alone: where children
-    // take their parents' places, those that stand in for them are not among these.
+    // VTK's template draws plain points. OpenGL draws no stand-ins for a selection; where children
+    // take their parents' places there would be nothing to find before they come.
     const bool replaces = view.View.front()->refinement() == pointfront::Refinement::Replace;
-    request.refines = look.inHostMemory || (look.shading && !replaces);
+    const bool lacksStandIns = replaces && renderer->GetSelector();
+    request.refines = look.inHostMemory || (look.shading && !lacksStandIns);
     request.moment.seconds = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
     request.moment.duration = 1e-3 * this->GrowthTime;
     view.Plan = view.View.plan(this->GetStore()->GetStore()->description(), std::move(request));
@@ -266,18 +267,7 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
   view.Plan->shading = std::move(request.shading); // lights in view space, lenses in pixels
   view.Plan->exchange = request.exchange;
   view.Plan->clippingPlanes = std::move(request.clippingPlanes);
-  std::map<std::uint16_t, std::size_t> styleOf; // the next of a layer's
-  for (pointfront::DrawBatch& batch : view.Plan->batches)
-  {
-    const pointfront::LayerStyles& styles = request.styles[batch.layer];
-    const std::size_t number = styleOf[batch.layer]++;
-    const std::shared_ptr<const pointfront::ResolvedStyle> before = batch.style;
-    batch.style = number < styles.size() ? styles[number] : before;
-    for (pointfront::DrawBatch& standIns : view.Plan->standIns)
-    {
-      standIns.style = standIns.style == before ? batch.style : standIns.style;
-    }
-  }
+  pointfront::restyle(*view.Plan, request.styles);
   return *view.Plan;
 }
 

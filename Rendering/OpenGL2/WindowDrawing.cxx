@@ -11,6 +11,7 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
+#include <unordered_set>
 #include <utility>
 
 namespace pointfront
@@ -27,6 +28,15 @@ float distanceTo(const PlanItem& item, const FramePlan& plan)
   const glm::vec3 centre =
     origin.relative(glm::u32vec3(0), glm::vec3(plan.grid.scale)) + node.halfSize;
   return std::max(0.0f, glm::length(centre) - glm::length(node.halfSize));
+}
+
+/// Whether points have not grown to their size. A selection shows them as if they had.
+bool isGrowing(const FramePlan& plan)
+{
+  const auto grows = [](const PlanItem& item) { return !item.growth.whole(); };
+  return std::any_of(plan.batches.begin(), plan.batches.end(),
+    [&](const DrawBatch& batch)
+    { return std::any_of(batch.items.begin(), batch.items.end(), grows); });
 }
 
 } // namespace
@@ -103,6 +113,7 @@ void WindowDrawing::release()
   }
   picture_.release(window_);
   splats_.release(window_);
+  selection_.release(window_);
   for (auto& [renderer, timer] : timers_)
   {
     timer.release();
@@ -162,15 +173,28 @@ void WindowDrawing::order(const FramePlan& plan)
     order_.push_back(place.item);
     styles_.push_back(place.style);
   }
+  wanted_ = order_;
+  std::unordered_set<NodeIndex> listed;
+  for (const PlanItem* const item : order_)
+  {
+    listed.insert(item->node->node);
+  }
+  for (const DrawBatch& batch : plan.standIns)
+  {
+    for (const PlanItem& item : batch.items)
+    {
+      listed.insert(item.node->node).second ? wanted_.push_back(&item) : void();
+    }
+  }
 }
 
 bool WindowDrawing::upload(const FramePlan& plan, std::int64_t bytes)
 {
   this->order(plan);
   this->chooseStreams(plan);
-  const bool room = pool_.makeRoom(order_);
+  const bool room = pool_.makeRoom(wanted_);
   bool left = false;
-  for (const PlanItem* const item : order_)
+  for (const PlanItem* const item : wanted_)
   {
     const auto* entry = pool_.bring(*item->node, item->last, plan, bytes);
     left = left || !entry || !pool_.isFilled(*entry, item->last);
@@ -180,21 +204,27 @@ bool WindowDrawing::upload(const FramePlan& plan, std::int64_t bytes)
   return left && (room || bytes <= 0 || pool_.lowered());
 }
 
-/// A layer that shows nothing in this frame keeps what it has.
+/// A layer that shows nothing in this frame keeps what it has. Stand-ins may come before all nodes
+/// of their layer that the plan has items of.
 void WindowDrawing::chooseStreams(const FramePlan& plan)
 {
-  for (auto batch = plan.batches.begin(); batch != plan.batches.end();)
+  std::map<std::uint16_t, LayerStreams::Styles> byLayer;
+  for (const DrawBatch& batch : plan.batches)
   {
-    const auto next = std::find_if(batch, plan.batches.end(),
-      [&](const DrawBatch& other) { return other.layer != batch->layer; });
-    LayerStreams::Styles styles;
-    for (auto one = batch; one != next; ++one)
-    {
-      styles.push_back(one->style);
-    }
-    streams_.resize(std::max<std::size_t>(streams_.size(), batch->layer + 1u));
-    streams_[batch->layer] = LayerStreams(std::move(styles));
-    batch = next;
+    byLayer[batch.layer].push_back(batch.style);
+  }
+  std::map<std::uint16_t, LayerStreams::Styles> ofStandIns;
+  for (const DrawBatch& batch : plan.standIns)
+  {
+    LayerStreams::Styles& styles = ofStandIns[batch.layer];
+    const bool isNew = std::find(styles.begin(), styles.end(), batch.style) == styles.end();
+    isNew ? styles.push_back(batch.style) : void();
+  }
+  byLayer.merge(ofStandIns); // layers that have none yet
+  for (auto& [layer, styles] : byLayer)
+  {
+    streams_.resize(std::max<std::size_t>(streams_.size(), layer + 1u));
+    streams_[layer] = LayerStreams(std::move(styles));
   }
   pool_.setStreams(streams_);
 }
@@ -248,8 +278,9 @@ void WindowDrawing::dropTables(const FramePlan& plan)
 {
   const auto unused = [&](const std::unique_ptr<ColourMapTexture>& table)
   {
-    const bool used = std::any_of(plan.batches.begin(), plan.batches.end(),
-      [&](const DrawBatch& batch) { return batch.style->map == table->map(); });
+    const auto reads = [&](const DrawBatch& batch) { return batch.style->map == table->map(); };
+    const bool used = std::any_of(plan.batches.begin(), plan.batches.end(), reads) ||
+      std::any_of(plan.standIns.begin(), plan.standIns.end(), reads);
     if (!used)
     {
       table->release(window_);
@@ -263,7 +294,14 @@ std::int64_t WindowDrawing::drawSplats(
   vtkRenderer* renderer, FramePlan& plan, bool ids, bool unfinished)
 {
   this->dropTables(plan);
-  return splats_.draw(
+  const bool apart = ids && refines_ && (!plan.refining || isGrowing(plan));
+  if (!ids)
+  {
+    drawn_ == &selection_ ? selection_.release(window_) : void();
+    refines_ = plan.refining;
+  }
+  drawn_ = apart ? &selection_ : &splats_;
+  return drawn_->draw(
     window_, renderer, plan, pool_,
     [this](const std::shared_ptr<const ColourMap>& map) { return this->tableOf(map); }, ids,
     unfinished);

@@ -86,9 +86,12 @@ public:
 
   /// Replaces list() and draw() for splats: draws into targets of their own. Returns the number of
   /// points.
+  /// `ids`: for a selection. One that a view's picture does not go on from is drawn apart, so that
+  /// the view's next frame goes on from its own last one.
   /// `unfinished`: another frame follows, with more points on the GPU.
   std::int64_t drawSplats(vtkRenderer* renderer, FramePlan& plan, bool ids, bool unfinished);
-  SplatPicture& splats() { return splats_; }
+  /// The picture that was drawn last.
+  SplatPicture& splats() { return *drawn_; }
 
   /// Replaces all of these: threads of this process draw from host memory. GPU memory of points is
   /// given back.
@@ -126,8 +129,12 @@ private:
   std::array<vtkSmartPointer<vtkOpenGLPointFrontPoints>, 4> passes_; ///< by kind of colouring
   SoftwarePicture picture_;
   SplatPicture splats_;
+  SplatPicture selection_; ///< while a view refines
+  SplatPicture* drawn_ = &splats_;
+  bool refines_ = false; ///< the last frame was of a refining view
   std::map<vtkRenderer*, FrameTimer> timers_;
   GpuPool::DrawList order_; ///< items of the plan, near to far
+  GpuPool::DrawList wanted_; ///< these, then stand-ins of nodes that the plan has no items of
   std::vector<const ResolvedStyle*> styles_; ///< styles of the items of order_
   std::vector<StyleGroup> groups_;
 };

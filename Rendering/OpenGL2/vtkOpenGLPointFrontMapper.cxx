@@ -209,7 +209,7 @@ vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* a
   pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
   const auto points = static_cast<vtkIdType>(plan.pointCount());
-  if (points > 0)
+  if (points > 0 || !plan.standIns.empty())
   {
     drawing.softwarePicture().handOver(
       static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()), renderer, actor, plan,
@@ -247,7 +247,7 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
       << " pixels (32-bit floats); use a smaller window or the software back end");
     return 0;
   }
-  if (points > 0)
+  if (points > 0 || !plan.standIns.empty())
   {
     drawing.splats().handOver(renderer, actor, plan, storePoints);
   }
@@ -263,7 +263,8 @@ bool vtkOpenGLPointFrontMapper::Upload(
   const std::int64_t limit = still ? std::numeric_limits<std::int64_t>::max() : this->UploadLimit;
   if (!this->IsFirstDrawing(renderer))
   {
-    if (this->IsAheadOfFrame(renderer))
+    // The plan of a selection has no stand-ins, and may have other nodes instead.
+    if (this->IsAheadOfFrame(renderer) || renderer->GetSelector())
     {
       drawing.upload(plan, limit);
     }

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """How fast `pointfront build` is, and where its CPU time goes.
 
 usage: Testing/Benchmarks/build_speed.py --tool TOOL --work DIR [--runs N] INPUT... [-- OPTIONS]

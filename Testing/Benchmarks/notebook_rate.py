@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Frames a second, and bytes a frame, that a browser gets while the mouse turns a cloud; no GPU.
 
     notebook_rate.py STORE [--peer PYTHON] [--seconds S] [--peer-seconds S] [--json FILE]

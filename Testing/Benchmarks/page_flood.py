@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Frames a second that somebody who looks at `pointfront serve` gets, alone, and while another
 process without the secret sends messages: 100,000 by default, a hundred in each try to get a
 socket. Both are measured in turn, in one run; the processors are shared, so the second is that of

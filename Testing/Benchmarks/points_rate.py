@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Points a second and core from a store to NumPy arrays, and the memory that this takes.
 
     points_rate.py STORE [--attributes intensity,rgb,classification] [--rounds N]

@@ -10,11 +10,13 @@ each cloud the worst of its views. Ends with 1 where a view breaks the promise.
 """
 
 import argparse
+import hashlib
 import json
 import math
 import pathlib
 import subprocess
 import sys
+import time
 
 import numpy
 from curve_scenes import camera_at
@@ -33,7 +35,7 @@ CLOUDS = ("classified/test_semis_2023_0292_6833_LA93_IGN69.laz", "copc/lone-star
 FARTHEST_POINT = 2.0  # times E, and a pixel: from each point in sight to one that is drawn
 FARTHEST_COVER = 4.0  # times E, and two pixels: how far splats reach beyond all points' splats
 COVER = 0.001  # share of the silhouette that may be covered beyond it
-WIDE_HOLES = 0.001  # share of the silhouette in holes wider than a pixel
+WIDE_HOLES = 0.002  # share of the silhouette in holes wider than a pixel
 FOREIGN = 0.02  # share of the silhouette whose height is none of those around the place
 HEIGHT_STEPS = 3  # 255 are the heights of the cloud; colours are whole numbers
 
@@ -52,13 +54,14 @@ def dilated(mask, radius):
 def extreme(values, radius, choose):
     """The least or largest value at most `radius` columns and rows away."""
     for axis in (0, 1):
-        padded = numpy.pad(values, [(radius, radius) if a == axis else (0, 0) for a in (0, 1)],
-                           mode="edge")
-        length = values.shape[axis]
-        best = padded.take(range(length), axis=axis)
-        for shift in range(1, 2 * radius + 1):
-            best = choose(best, padded.take(range(shift, shift + length), axis=axis))
-        values = best
+        best = numpy.pad(values, [(radius, radius) if a == axis else (0, 0) for a in (0, 1)],
+                         mode="edge").swapaxes(0, axis)
+        width = 1  # the window that `best` is of; two that overlap make a wider one
+        while width < 2 * radius + 1:
+            shift = min(width, 2 * radius + 1 - width)
+            best = choose(best[:-shift], best[shift:])
+            width += shift
+        values = best.swapaxes(0, axis)
     return values
 
 
@@ -147,15 +150,80 @@ def broken(measures):
     return [name for name, bound in bounds.items() if measures[name] > bound]
 
 
-def views(judge, random, count):
-    """(camera, error, measures) of that many views that show something."""
+def source_of(tool, seed, number):
+    """All that judged views depend on: seed and number of the cloud, the judge, the tool."""
+    digest = hashlib.sha256(pathlib.Path(__file__).read_bytes())
+    for file in [tool, *sorted(tool.parent.parent.glob("lib*/*pointfront*.so"))]:
+        digest.update(file.read_bytes())
+    return {"seed": seed, "cloud": number, "judge_and_tool": digest.hexdigest()[:12]}
+
+
+class JudgedViews:
+    """Views that were judged: a line each of a file, after one that says what they depend on."""
+
+    def __init__(self, path, source):
+        self.path, self.lines = path, []
+        if path.exists():
+            # A line that was being written when the run ended has no end.
+            text = path.read_text()
+            lines = [json.loads(line) for line in text[:text.rfind("\n") + 1].splitlines()]
+            if lines and lines[0] == source:
+                self.lines = lines[1:]
+        path.write_text("".join(json.dumps(line) + "\n" for line in [source, *self.lines]))
+        self.next = 0
+
+    def judged(self, judge, camera, error_px):
+        """The measures of that view, from the file if it has them."""
+        view = json.loads(json.dumps({"camera": camera, "error_px": error_px}))
+        if self.next < len(self.lines):
+            line = self.lines[self.next]
+            if {key: line[key] for key in view} != view:
+                raise SystemExit(f"{self.path}: other views than those of this seed: remove it")
+        else:
+            begun = time.monotonic()
+            line = {**view, "measures": judge.judge(camera, error_px),
+                    "seconds": round(time.monotonic() - begun, 2)}
+            with self.path.open("a") as file:
+                file.write(json.dumps(line, default=float) + "\n")
+        self.next += 1
+        return line["measures"]
+
+
+def views(judged, random_view, random, count):
+    """(camera, error, measures) of that many views that show something; `judged` judges one."""
     while count > 0:
-        camera = judge.random_view(random)
+        camera = random_view(random)
         error_px = round(math.exp(random.uniform(math.log(0.5), math.log(8))), 2)
-        measures = judge.judge(camera, error_px)
+        measures = judged(camera, error_px)
         if measures is not None:
             count -= 1
             yield camera, error_px, measures
+
+
+def worst_views(options, number, name):
+    """The worst of each measure, and how many views of a cloud break the promise."""
+    tool = options.build / "bin/pointfront"
+    folder = options.work / pathlib.Path(name).name.split(".")[0]
+    folder.mkdir(parents=True, exist_ok=True)
+    store = folder / "cloud.pfront"
+    if not store.exists():
+        call(tool, "build", options.data / name, "-o", store, "--progress", "none", "--normals",
+             "pca")
+    count = options.views * (number + 1) // len(CLOUDS) - options.views * number // len(CLOUDS)
+    judge = Judge(tool, store, folder)
+    kept = JudgedViews(folder / "views.jsonl", source_of(tool, options.seed, number))
+    worst, bad = {}, 0
+    random = numpy.random.default_rng([options.seed, number])
+    found = views(lambda camera, error_px: kept.judged(judge, camera, error_px),
+                  judge.random_view, random, count)
+    for done, (camera, error_px, measures) in enumerate(found, 1):
+        worst = {key: max(worst.get(key, 0.0), value) for key, value in measures.items()}
+        print(f"{name}: {done} of {count} views", file=sys.stderr)
+        if broken(measures):
+            bad += 1
+            print(f"{name}: {error_px} px: {broken(measures)}: {measures}: "
+                  f"{json.dumps(camera)}", file=sys.stderr, flush=True)
+    return count, worst, bad
 
 
 def main():
@@ -167,26 +235,12 @@ def main():
     parser.add_argument("--views", type=int, default=500)
     parser.add_argument("--seed", type=int, default=33)
     options = parser.parse_args()
-    tool, failed = options.build / "bin/pointfront", 0
-    random = numpy.random.default_rng(options.seed)
+    failed = 0
     print("| cloud | views | error, of E | points farther than promised, % | covered beyond, % | "
           "in wide holes, % | of other heights, % | broken |")
     print("| --- |" + " ---: |" * 7)
     for number, name in enumerate(CLOUDS):
-        folder = options.work / pathlib.Path(name).name.split(".")[0]
-        folder.mkdir(parents=True, exist_ok=True)
-        store = folder / "cloud.pfront"
-        if not store.exists():
-            call(tool, "build", options.data / name, "-o", store, "--progress", "none",
-                 "--normals", "pca")
-        count = options.views * (number + 1) // len(CLOUDS) - options.views * number // len(CLOUDS)
-        worst, bad = {}, 0
-        for camera, error_px, measures in views(Judge(tool, store, folder), random, count):
-            worst = {key: max(worst.get(key, 0.0), value) for key, value in measures.items()}
-            if broken(measures):
-                bad += 1
-                print(f"{name}: {error_px} px: {broken(measures)}: {measures}: "
-                      f"{json.dumps(camera)}", file=sys.stderr)
+        count, worst, bad = worst_views(options, number, name)
         failed += bad
         print(f"| {pathlib.Path(name).name} | {count} | {worst['error']:.3f} "
               f"| {100 * worst['points']:.2g} | {100 * COVER * worst['cover']:.2g} "

@@ -1,8 +1,8 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """The cost of a build of tiles beside that of a build of everything.
 
 usage: Testing/Benchmarks/tiles.py TOOL [--points N] [--tile METRES] [--runs N] [--work DIR]
-       [--package DIR --workers N] [--memory SIZE]
+       [--package DIR --workers N --inputs N] [--memory SIZE]
 
 Generates a cloud as LAS and LAZ. Builds each as one store and as tiles, in turn, RUNS times, with
 and without normals, one thread each. Prints the processor seconds (user and system, of the process)
@@ -10,7 +10,8 @@ of the medians, their ratio, and the largest resident memory of a process. docs/
 them.
 
 With --package (the folder that the Python package `pointfront` of the same build lies in), also
-builds the LAZ with normals by `cluster build` with one process and with N, of one thread each.
+builds LAZ with normals by `cluster build` with one process and with N, of one thread each: as many
+files as --inputs says, of --points each, over one ground. One process surveys each file.
 Prints seconds on the clock, their ratio, which means something on a machine that does nothing else,
 and the largest resident memory of any process (generating and Dask's included) beside --memory.
 """
@@ -70,6 +71,7 @@ def main():
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("--package", type=pathlib.Path)
     parser.add_argument("--workers", type=int, default=2)
+    parser.add_argument("--inputs", type=int, default=4)
     parser.add_argument("--memory", default="1G")
     args = parser.parse_args()
     tool = args.tool.resolve()
@@ -78,27 +80,32 @@ def main():
         if args.runs:
             print(f"{'input':18}{'tiles':>6}{'store s':>9}{'tiles s':>9}{'ratio':>7}{'MiB':>6}"
                   f"{'spilled MB':>12}")
-        for extension in ("las", "laz"):
+        for extension in ("las", "laz") if args.runs else ():
             source = work / f"cloud.{extension}"
             call(tool, "generate", "--points", args.points, "-o", source, "--seed", 3,
                  "--progress", "none")
-            for kind, options in (KINDS if args.runs else {}).items():
+            for kind, options in KINDS.items():
                 seconds, _, many = compare(tool, work, args, source, options)
                 print(f"{extension + ' ' + kind:18}{many['tiles']:6}{seconds['store']:9.2f}"
                       f"{seconds['tiles']:9.2f}{seconds['tiles'] / seconds['store']:7.2f}"
                       f"{many['peak_rss_bytes'] / 2**20:6.0f}{many['spilled_bytes'] / 1e6:12.0f}",
                       flush=True)
         if args.package:
-            cluster(work, args)
+            cluster(tool, work, args)
 
 
-def cluster(work, args):
+def cluster(tool, work, args):
     """One process and several, on the clock."""
+    sources = work / "inputs"
+    sources.mkdir()
+    for seed in range(1, args.inputs + 1):
+        call(tool, "generate", "--points", args.points, "-o", sources / f"{seed}.laz",
+             "--seed", seed, "--progress", "none")
     clock = {}
     for workers in (1, args.workers):
         land = work / f"cluster-{workers}"
         used, clock[workers], _ = measured(
-            [sys.executable, "-m", "pointfront", "cluster", "build", work / "cloud.laz", "-o", land,
+            [sys.executable, "-m", "pointfront", "cluster", "build", sources, "-o", land,
              "--tile", args.tile, "--local", workers, "--threads", 1, "--memory", args.memory,
              "--normals", "pca", "--json", "--progress", "none"],
             {"PYTHONPATH": str(args.package.resolve())})

@@ -21,6 +21,7 @@ RULES = {
     "FunctionLength": text_rules.function_length,
     "CommentSubjects": text_rules.comment_subjects,
     "MachinePaths": text_rules.machine_paths,
+    "Interpreters": text_rules.interpreters,
     "Addresses": text_rules.addresses,
     "Unfinished": text_rules.unfinished,
     "IdleTests": text_rules.idle_tests,

@@ -53,7 +53,7 @@ def anchors(files):
 
 
 # Pages whose tables of numbers Testing/Benchmarks/tables makes.
-MEASURED = ("README.md", "docs/tradeoffs.md", "docs/papers.md")
+MEASURED = ("README.md", "docs/tradeoffs.md", "docs/papers.md", "docs/promise.md")
 COMMAND = re.compile(r"<!-- table(?: \d+)?(?: by hand)?: (.+) -->")
 CALLED = re.compile(r"Testing/Benchmarks/(\w+(?:\.py)?)|\bpointfront(\w+)Benchmark\b")
 

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Testing/longest-tests.txt names tests that exist, in the presets that `scripts/test` has built.
 
     longest_tests.py LIST CTEST BUILD PRESET...

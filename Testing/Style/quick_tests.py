@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 """Testing/quick-leaves-out.txt names tests that exist, and `scripts/test quick` runs the shorter
 tests that it names in their place.
 

@@ -8,6 +8,7 @@ import shutil
 import sys
 import unittest
 
+import contraction
 import doc_rules
 import quick_tests
 from check_style import RULES
@@ -139,6 +140,16 @@ class RulesTest(unittest.TestCase):
         }
         self.assertEqual(self.faults("MachinePaths", tree), [("docs/a.md", 1)])
 
+    def test_interpreters(self):
+        tree = {
+            "scripts/a": "#!/usr/bin/env python3\n",
+            "scripts/b": "#!/usr/bin/python3\n",
+            "scripts/c": "#!/bin/sh\nexec python\n",
+            "x/d.py": "#!/usr/bin/python\n",
+            "x/e.py": "import os\n",
+        }
+        self.assertEqual(self.faults("Interpreters", tree), [("scripts/a", 1), ("x/d.py", 1)])
+
     def test_addresses(self):
         tree = {
             "scripts/a": f"curl {ADDRESS}\n",
@@ -225,6 +236,14 @@ class RulesTest(unittest.TestCase):
             tree = {"README.md": f"<!-- table: {command} -->\n" + rows + end,
                     "Testing/Benchmarks/a.py": source, doc_rules.MADE: f"{fresh}\n"}
             self.assertEqual(self.faults("OldTables", tree), faults)
+
+    def test_contraction(self):
+        compiled = {"a.cxx": "c++ -O3 -ffp-contract=off -c a.cxx", "b.cxx": "c++ -O3 -c b.cxx",
+                    "c.cxx": "c++ -ffp-contract=off -ffp-contract=fast -c c.cxx",
+                    "d.c": "cc -c d.c",
+                    "e.cxx": "c++ -Ofast -ffp-contract=off -c e.cxx"}
+        commands = [{"file": file, "command": command} for file, command in compiled.items()]
+        self.assertEqual(contraction.contracting(commands), ["b.cxx", "c.cxx", "e.cxx"])
 
     def include_faults(self, path, header):
         known = {

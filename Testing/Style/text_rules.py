@@ -126,6 +126,17 @@ def machine_paths(files):
                 yield file.path, number, "names a folder of one machine"
 
 
+SYSTEM_PYTHON = "#!/usr/bin/python3"
+
+
+def interpreters(files):
+    """A script of Python names the system's Python: another may come first on the path."""
+    for file in files:
+        first = file.lines[0] if file.lines else ""
+        if first.startswith("#!") and "python" in first and first != SYSTEM_PYTHON:
+            yield file.path, 1, f"begins with {first}; write {SYSTEM_PYTHON}"
+
+
 # Not of this machine, nor put together from what a program was told.
 ADDRESS = re.compile(r"https?:" + r"//(?!localhost\b|[{\\])")
 

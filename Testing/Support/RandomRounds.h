@@ -1,17 +1,15 @@
 #pragma once
 
+#include "Sanitizers.h"
+
 namespace pointfront::test
 {
 
 /// How often a test with random input repeats itself: `count` times, under a sanitizer a tenth of
 /// it. Optimised builds check each answer; sanitizers look at how the same code comes to it.
-constexpr int randomRounds(int count)
+inline int randomRounds(int count)
 {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-  return count / 10;
-#else
-  return count;
-#endif
+  return underSanitizer() ? count / 10 : count;
 }
 
 } // namespace pointfront::test

@@ -7,6 +7,7 @@ import subprocess
 from random_cases import chance
 from random_forms import PLY_TYPES, write_ply
 from random_pairs import EVERYTHING, Pair
+from sheets import styles_of
 
 # Times that a point is drawn, over all frames: docs/adr/0043-splats-of-a-refining-view.md.
 ONCE, TWICE = 1.1, 2.15
@@ -30,7 +31,7 @@ class Loading(Pair):
     def make(self, number, rng):
         town = self.town(number, rng.choice((5000, 20000, 40000)))
         words = ["--node-points", rng.choice((256, 400, 1000)), "--normals", "pca",
-                 "--layers", rng.choice(("none", "class"))]
+                 "--layers", rng.choice(("none", "class")), *self.tree(rng)]
         if not self.several:
             source = self.folder / "town.las"
             town.write(source)
@@ -43,6 +44,15 @@ class Loading(Pair):
                 name: column[part::3] for name, column in columns.items()}, list(PLY_TYPES))
             self.stores.append(self.build(f"{part}.pfront", file, *words))
         return self.stores[0]
+
+    def tree(self, rng):
+        """Options of the build that say what tree it makes."""
+        del rng
+        return ()
+
+    def is_bounded(self, case):
+        """Whether so few points may be drawn again: those that grow are drawn in each frame."""
+        return case["growth"] == 0
 
     def choose(self, rng):
         return {"error": rng.choice((EVERYTHING, "1", "3")),
@@ -76,8 +86,7 @@ class Loading(Pair):
             self.refused += 1
             return None
         blends = said["blended_once"] > 0
-        growing = case["growth"] > 0
-        limits = () if growing else (
+        limits = () if not self.is_bounded(case) else (
             ("drawn", "once", ONCE), ("blended", "blended_once", TWICE),
             ("gl", "gl_once", ON_OPENGL if blends else ONCE))
         wrong = [f"{sum_} {said[sum_]:.0f} of {said[once]:.0f} at one go"
@@ -101,4 +110,17 @@ class LoadingClouds(Loading):
     several = True
 
 
-KINDS = (Loading, LoadingClouds)
+class LoadingMeans(Loading):
+    """Children take the places of their parents, which no complete picture shows."""
+
+    def tree(self, rng):
+        return "--refinement", "replace", "--structure", rng.choice(("octree", "kdtree"))
+
+    def is_bounded(self, case):
+        """With sizes of another kind than spacings each frame begins anew."""
+        sizes = [style.get("size", {}) for style in styles_of(case["style"])]
+        return super().is_bounded(case) and all(
+            size.get("mode", "spacing") == "spacing" for size in sizes)
+
+
+KINDS = (Loading, LoadingClouds, LoadingMeans)

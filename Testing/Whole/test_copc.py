@@ -54,8 +54,9 @@ class Publish(ToolTest):
 
     def test_of_every_kind_of_cloud(self):
         las = DATA / "las/real/autzen_trim.las"
-        for number, options in enumerate((("--structure", "kdtree"), ("--layers", "class"),
-                                          ("--node-points", "700"))):
+        kinds = ("--structure", "kdtree"), ("--layers", "class"), ("--node-points", "700")
+        # For a sanitizer the export of one tree is that of another.
+        for number, options in enumerate(kinds if SLOWNESS == 1 else kinds[:1]):
             store = self.folder / f"{number}.pfront"
             self.succeed("build", las, "-o", store, *options)
             out, _ = self.publish(store, name=f"{number}.copc.laz")
@@ -65,7 +66,8 @@ class Publish(ToolTest):
         self.succeed("index", copy)
         out, _ = self.publish(f"{copy}.pfindex", name="index.copc.laz")
         self.expect_same(las, out, 110000, "intensity", "classification", "rgb")
-        for number, cloud in enumerate(("copc/lone-star.copc.laz", "ept/lone-star-laszip")):
+        trees = "ept/lone-star-laszip", "copc/lone-star.copc.laz"
+        for number, cloud in enumerate(trees if SLOWNESS == 1 else trees[:1]):
             out, file = self.publish(DATA / cloud, name=f"again{number}.copc.laz")
             plain = self.folder / f"{number}.las"
             self.succeed("export", DATA / cloud, "-o", plain)
@@ -96,7 +98,7 @@ class Publish(ToolTest):
     def test_memory_is_kept_or_refused(self):
         """A run takes what the program takes without points, and at most --memory."""
         las = self.folder / "made.las"  # twice as large as the larger memory below
-        self.succeed("generate", "--points", 3000000, "-o", las)
+        self.succeed("generate", "--points", 3000000 if SLOWNESS == 1 else 100000, "-o", las)
         store = self.build(las)
         las.unlink()
         out = self.folder / "out.copc.laz"

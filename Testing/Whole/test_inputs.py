@@ -67,8 +67,9 @@ class RealFiles(ToolTest):
                 rejected = sum(report["points_rejected"].values())
                 self.assertEqual(report["points_read"], report["points_stored"] + rejected)
                 self.assertEqual(rejected, REJECTED.get(name_of(path), 0))
-                verified = self.succeed("verify", store, "--json").json
-                self.assertEqual(verified["points_checked"], report["points_stored"])
+                if SLOWNESS == 1:  # stores of the readers' points are alike for a sanitizer
+                    verified = self.succeed("verify", store, "--json").json
+                    self.assertEqual(verified["points_checked"], report["points_stored"])
 
     def test_same_points_give_the_same_store(self):
         las = self.build(DATA / "las/real/autzen_trim.las", name="a.pfront")

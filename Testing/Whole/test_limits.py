@@ -204,8 +204,12 @@ class Page(unittest.TestCase):
         kinds = {kind for path in root.glob("*/**/Testing/**/*.cxx")
                  if "build" not in path.relative_to(root).parts
                  for kind in re.findall(r"^TEST(?:_F)?\((\w+),", path.read_text(), re.M)}
+        style = (root / "Testing/Style/CMakeLists.txt").read_text()
         for name in named:
-            self.assertTrue(name in whole or name in kinds or name.endswith("Benchmark"), name)
+            there = (root / name).is_file() if name.startswith("scripts/") else \
+                name in style if name.startswith("Style.") else \
+                name in whole or name in kinds or name.endswith("Benchmark")
+            self.assertTrue(there, name)
 
 
 if __name__ == "__main__":

@@ -102,7 +102,8 @@ class GoodServers(RemoteTest):
             self.assertEqual(said["bytes_written"], out.stat().st_size)
             self.assertEqual(said["requests"] > 0, far)
             self.assertEqual(said["bytes_fetched"] > said["bytes_written"] / 10, far)
-            self.assertEqual((said["retries"], said["cache_hits"]), (0, 0))
+            self.assertEqual([said[key] for key in ("retries", "cache_hits", "cache_bytes")],
+                             [0, 0, 0])
         for path in (out, self.store):  # neither a target nor a source
             self.refuse(1, "export", self.store, "-o", out, "--force", "--stats", path)
 
@@ -112,6 +113,14 @@ class GoodServers(RemoteTest):
         near = self.succeed("info", self.store, "--json").json
         self.assertEqual(facts["points"], near["points"])
         self.assertEqual(facts["bounds"], near["bounds"])
+        self.assertNotIn("traffic", near)
+        self.assertEqual(set(facts["traffic"]), {"requests", "bytes_fetched", "retries",
+                                                 "cache_hits", "cache_bytes"})
+        self.assertGreater(facts["traffic"]["requests"], 0)
+        self.assertGreater(facts["traffic"]["bytes_fetched"], 1000)
+        text = self.succeed("info", address, environment=environment()).out
+        self.assertRegex(text, r"\n  traffic +[1-9][0-9]* requests?, [0-9.]+ [KM]iB fetched")
+        self.assertNotIn("traffic", self.succeed("info", self.store).out)
         pictures = []
         for cloud in (address, self.store):
             out = self.folder / "picture.png"
@@ -191,6 +200,9 @@ class Cache(RemoteTest):
         self.assertLessEqual(facts["requests"], 2, facts)  # head and tail, at once
         self.assertLess(facts["bytes_fetched"], fetched / 4)
         self.assertGreater(facts["cache_hits"], 0)
+        self.assertGreater(facts["cache_bytes"], 10000)
+        text = self.succeed("info", self.address(""), environment=self.with_cache).out
+        self.assertRegex(text, r"\n  traffic .*, [1-9][0-9.]* [KM]iB from the cache")
         self.assertTrue((near == first).all() and (near == second).all())
 
     def test_offline(self):

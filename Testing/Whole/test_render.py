@@ -261,7 +261,7 @@ class Refinement(SharedSceneTest):
             "nodes_drawn", "error_px", "peak_rss_bytes", "resident_bytes", "gpu_bytes",
             "bytes_read", "attributes_read", "limited_by", "failed_nodes", "backend",
             "picture_bytes", "classes", "expected",
-            "requests", "bytes_fetched", "retries", "cache_hits"})
+            "requests", "bytes_fetched", "retries", "cache_hits", "cache_bytes"})
         self.assertEqual(statistics["backend"], BACKEND)
         self.assertIs(statistics["complete"], True)
         self.assertLessEqual(statistics["error_px"], 1)
@@ -386,7 +386,7 @@ class Refinement(SharedSceneTest):
                 "gpu_bytes_max", "gpu_budget_bytes", "budget_bytes", "bytes_read",
                 "frames_that_read_files", "loading", "backend", "rasterise_ms", "picture_bytes",
                 "empty_scene_rss_bytes", "peak_rss_bytes",
-                "requests", "bytes_fetched", "retries", "cache_hits", "expected"})
+                "requests", "bytes_fetched", "retries", "cache_hits", "cache_bytes", "expected"})
             self.assertEqual(result["backend"], BACKEND)
             self.assertGreater(result["peak_rss_bytes"], result["empty_scene_rss_bytes"])
             self.assertEqual(result["frames"], 6)

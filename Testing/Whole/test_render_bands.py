@@ -1,6 +1,8 @@
 """Pictures of render that do not fit into --memory: see scenes.py."""
 
 import json
+import re
+import shutil
 import signal
 import subprocess
 import time
@@ -9,7 +11,7 @@ import unittest
 import numpy
 
 from scenes import BACKEND, TRIM, SceneTest
-from tool import SLOWNESS, TOOL
+from tool import SLOWNESS, TOOL, measures, pointfront
 
 
 @unittest.skipUnless(BACKEND == "software", "OpenGL has no bands")
@@ -79,6 +81,56 @@ class Bands(SceneTest):
         _, err = process.communicate(timeout=600 * SLOWNESS)
         self.assertEqual(process.returncode, 130, err)
         self.assertEqual(self.entries(), ["cloud.pfront"])
+
+
+@measures
+@unittest.skipUnless(BACKEND == "software", "OpenGL keeps nothing in --memory")
+class FramesOfManyStores(SceneTest):
+    """A frame keeps what was seen of each store, and of each part of its picture (a translucent
+    class): 8 bytes a pixel, of up to 64 pictures, as far as 8 million pixels go."""
+
+    SIZE = (320, 240)
+    KEYS = 8 * SIZE[0] * SIZE[1]
+
+    def setUp(self):
+        super().setUp()
+        cloud, first = self.folder / "cloud.las", self.folder / "0.pfront"
+        self.succeed("generate", "--points", 20000, "--seed", 3, "-o", cloud)
+        self.succeed("build", cloud, "-o", first)
+        self.stores = [first]
+        for number in range(1, 25):
+            self.stores.append(self.folder / f"{number}.pfront")
+            shutil.copy(first, self.stores[-1])
+
+    def words(self, stores, memory):
+        return ("bench", *self.stores[:stores], "--path", "orbit", "--frames", 2, "--size",
+                "{}x{}".format(*self.SIZE), "--memory", memory, "--stats",
+                self.folder / "stats.json", *self.style)
+
+    def least(self, stores):
+        """The least --memory for frames that the tool asks for, which is enough."""
+        told = pointfront(*self.words(stores, "3M"))
+        self.assertEqual(told.status, 1, told)
+        least = int(re.search(r"a frame of .* takes --memory (\d+) at least", told.err)[1])
+        self.succeed(*self.words(stores, least))
+        self.refuse(1, *self.words(stores, least - 1))
+        return least
+
+    def test_each_of_twenty_stores_counts(self):
+        self.style = ()
+        four = (self.least(20) - self.least(16)) * 3 / 4
+        self.assertAlmostEqual(four, 4 * self.KEYS, delta=8)
+
+    def test_each_part_counts_up_to_64_pictures(self):
+        style = self.folder / "style.json"
+        self.style = ("--style", style)
+        style.write_text("{}")
+        plain = [self.least(stores) for stores in (10, 25)]
+        style.write_text(json.dumps({"classes": {"2": {"opacity": 0.5}, "5": {"opacity": 0.6}}}))
+        # Three pictures of each store, and three targets.
+        more = [(self.least(stores) - before) * 3 / 4
+                for stores, before in zip((10, 25), plain)]
+        self.assertAlmostEqual(more[0] - more[1], (2 * 10 - (64 - 25)) * self.KEYS, delta=8)
 
 
 if __name__ == "__main__":

@@ -145,6 +145,21 @@ class Tiles(ToolTest):
         said = self.refuse(1, "build", *inputs, "-o", self.folder / "other", "--tiles")
         self.assertIn("no.las", said.err)
 
+    def test_tell_once_what_they_find_of_inputs(self):
+        """And of points, for the tiles that have them."""
+        folder = survey(self, FEWER)
+        done = self.succeed("build", *sorted(folder.glob("part_*.las")), "-o", self.folder / "land",
+                            "--tiles", "--tile", SMALL_EDGE, "--progress", "none")
+        said = [line.partition(": warning: ")[2] for line in done.err.splitlines()]
+        self.assertEqual([line[:20] for line in said], ["No input says which "], done.err)
+        rows = ["0 0 0", "50 0 0", "100 0 0"]
+        (self.folder / "line.xyz").write_text("\n".join(rows))
+        done = self.succeed("build", self.folder / "line.xyz", "-o", self.folder / "line",
+                            "--tiles", "--tile", "40", "--normals", "pca", "--progress", "none")
+        said = [line.partition(": warning: ")[2] for line in done.err.splitlines()]
+        self.assertEqual(sum(line.startswith("No input") for line in said), 1, done.err)
+        self.assertEqual(sum("1 point has no normal: it has" in line for line in said), 1, done.err)
+
     def test_refuse_what_would_have_seams_or_mix_two_builds(self):
         folder = survey(self, 5000)
         for options, why in ((("--normals", "pca", "--normals-eps", "1"), "seams"),

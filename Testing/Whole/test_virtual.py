@@ -17,7 +17,9 @@ from far_server import FarServer
 
 HERE = "127.0.0.1"
 SIDE = 8
-STEP = (150, 60)  # from tile to tile, units
+# From tile to tile, units: so far that no sphere around a tile reaches into the margin that a view
+# of another tile loads (an eighth of the picture, if the picture has time for it).
+STEP = (150, 100)
 
 
 class VirtualClouds(ToolTest):
@@ -67,6 +69,52 @@ class VirtualClouds(ToolTest):
         self.assertEqual(self.succeed("verify", self.list, "--json").json["points_checked"],
                          SIDE * SIDE * self.tile.points)
 
+    def built(self, cloud):
+        store = self.folder / "built.pfront"
+        self.succeed("build", cloud, "-o", store, "--force", environment=self.environment)
+        return sorted(self.points(store).splitlines())
+
+    def test_a_store_is_built_of_the_files_that_a_list_names(self):
+        """Here and behind addresses, COPC and plain LAS."""
+        expected = sorted(self.points(self.list).splitlines())
+        self.assertEqual(self.built(self.list), expected)
+        with FarServer(self.folder) as server:
+            items = self.items()
+            self.succeed("export", self.folder / "tile-0-0.copc.laz", "-o",
+                         self.folder / "plain.las")
+            items[0]["assets"]["data"]["href"] = "./plain.las"
+            for one in items[1::2]:
+                name = one["assets"]["data"]["href"]
+                one["assets"]["data"]["href"] = f"http://{HERE}:{server.port}/{name}"
+            del items[3]["properties"]["pc:count"]
+            mixed = write_list(self.folder / "mixed.json", items)
+            self.assertEqual(self.built(mixed), expected)
+            names = self.folder / "mixed.pfronts"
+            names.write_text("".join(f"{one['assets']['data']['href']}\n" for one in items))
+            self.assertEqual(self.built(names), expected)
+            self.assertEqual(self.built(f"http://{HERE}:{server.port}/all.vpc"), expected)
+        (self.folder / "none.vpc").write_text("points\n")
+        refused = self.refuse(1, "build", self.folder / "none.vpc", "-o", self.folder / "no.pfront")
+        self.assertIn("ItemCollection", refused.err)
+
+    def test_settings_of_a_list_are_those_of_its_tiles(self):
+        cache = self.folder / "a cache"
+        with FarServer(self.folder) as server:
+            items = self.items()
+            for one in items[1::2]:
+                name = one["assets"]["data"]["href"][2:]
+                one["assets"]["data"]["href"] = f"http://{HERE}:{server.port}/{name}"
+            write_list(self.folder / "far.vpc", items)
+            address = f"http://{HERE}:{server.port}/far.vpc"
+            kept = f"#far:cache={str(cache).replace(' ', '%20')}"
+            expected = self.points(self.list)
+            self.assertEqual(self.points(address + kept), expected)
+            server.requests.clear()
+            self.assertEqual(self.points(f"{address}{kept}&offline=1"), expected)
+            self.assertEqual(server.requests, [])
+            told = self.refuse(1, "info", f"{address}#far:offlin=1", environment=self.environment)
+            self.assertIn("'offlin=1' is no setting", told.err)
+
     def test_a_box_opens_its_tiles_only(self):
         with FarServer(self.folder) as server:
             address = f"http://{HERE}:{server.port}/all.vpc"
@@ -76,6 +124,14 @@ class VirtualClouds(ToolTest):
             asked = {seen["path"] for seen in server.requests}
             self.assertIn("/tile-3-2.copc.laz", asked)
             self.assertLessEqual(len(asked), 6, asked)  # the list, four to know them by, and it
+
+    def test_a_picture_of_all_tiles_fetches_little_more_than_they_are(self):
+        facts = self.folder / "facts.json"
+        with FarServer(self.folder) as server:
+            self.draw(f"http://{HERE}:{server.port}/all.vpc", "--stats", facts)
+        fetched = json.loads(facts.read_text())["bytes_fetched"]
+        tiles = SIDE * SIDE * self.copc.stat().st_size
+        self.assertLessEqual(fetched, 1.3 * (tiles + self.list.stat().st_size)) # 2.3 before
 
     def test_a_view_opens_the_tiles_in_sight_only(self):
         centre = [(self.tile.low[axis] + self.tile.high[axis]) / 2 + (3, 2)[axis] * STEP[axis]

@@ -22,6 +22,9 @@ DATA = pathlib.Path(os.environ["POINTFRONT_SHARED_DATA"])
 WORK = (pathlib.Path(os.environ["POINTFRONT_WORK"]) /
         (pathlib.Path(sys.argv[0]).stem + os.environ.get("POINTFRONT_BACKEND", "")))
 SLOWNESS = float(os.environ.get("POINTFRONT_SLOWNESS", "1"))
+# For tests that measure bytes, shares or many pictures of code that other tests run, too: a
+# sanitizer sees nothing else in them. (MEASURES of pointfront_discover_tests, for programs.)
+measures = unittest.skipIf(SLOWNESS > 1, "a sanitizer sees nothing in what is measured")
 
 
 class Outcome:

@@ -1,6 +1,6 @@
 #include "PointLook.h"
 
-#include "pointfront/Style/QualityPreset.h"
+#include "pointfront/Quality/QualityChoice.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -127,6 +127,20 @@ std::string namedTechniques()
   return techniqueList() + ", blended";
 }
 
+Result<std::optional<QualityPreset>> PointLook::preset() const
+{
+  if (quality.empty())
+  {
+    return std::optional<QualityPreset>();
+  }
+  auto choice = chooseQuality(quality);
+  if (!choice)
+  {
+    return choice.error();
+  }
+  return std::optional<QualityPreset>(choice->preset);
+}
+
 bool PointLook::closes() const
 {
   return !quality.empty() || closing == ALWAYS ||
@@ -157,10 +171,10 @@ bool applyLook(
     error = "\"" + look.technique + "\" is no technique: choose " + namedTechniques();
     return false;
   }
-  const QualityPreset* preset = look.quality.empty() ? nullptr : qualityPresetOf(look.quality);
-  if (!preset && !look.quality.empty())
+  const auto preset = look.preset();
+  if (!preset)
   {
-    error = "\"" + look.quality + "\" is no quality: choose draft, balanced or exact";
+    error = preset.error().what;
     return false;
   }
   auto where = FilterExpression::parse(look.where);
@@ -171,9 +185,9 @@ bool applyLook(
   }
   sheet.standard.technique = named->technique;
   sheet.standard.blended = named->blended;
-  if (preset)
+  if (*preset)
   {
-    preset->applyTo(sheet.standard);
+    (*preset)->applyTo(sheet.standard);
   }
   sheet.standard.colour = sourceOf(colour);
   sheet.standard.size = sizeOf(look, look.closes());

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "pointfront/Base/Result.h"
 #include "pointfront/Style/LayerStyle.h"
+#include "pointfront/Style/QualityPreset.h"
 
 #include <array>
 #include <optional>
@@ -39,7 +41,9 @@ struct PointLook
   double pixels = 2.0; ///< > 0
   double factor = 1.0; ///< > 0
   double eyeDomeStrength = 0.0; ///< 0: off
-  std::string quality; ///< a preset, in the place of technique and closing; empty: none
+  /// A preset or a number, as chooseQuality() has it, in the place of technique and closing;
+  /// empty: none.
+  std::string quality;
   enum Light
   {
     SPHERES = 0,
@@ -54,6 +58,9 @@ struct PointLook
   bool translucentSurface = false;
   std::string where; ///< a condition; empty: all points
 
+  /// The preset that `quality` stands for; nothing where it is empty.
+  /// Errors  BadArgument: `quality` is none.
+  Result<std::optional<QualityPreset>> preset() const;
   /// The size counts in what closes the surface.
   bool closes() const;
   /// The same for what differs, where a technique is named and no size.

@@ -42,6 +42,8 @@ void vtkPVPointFrontFrame::CopyFromObject(vtkObject* object)
   this->Outdated = representation->GetFrameOutdated();
   this->Build = representation->GetBuildState();
   this->Technique = representation->GetTechniqueDrawn();
+  this->MissingNodes = representation->GetMissingNodes();
+  this->Traffic = pointfront::ByteTraffic::ofProcess().counts();
 }
 
 //------------------------------------------------------------------------------
@@ -58,6 +60,11 @@ void vtkPVPointFrontFrame::AddInformation(vtkPVInformation* information)
       ? std::min(this->HostMemoryBudget, other->HostMemoryBudget)
       : other->HostMemoryBudget;
     this->Limits |= other->Limits;
+    this->MissingNodes += other->MissingNodes;
+    this->Traffic.requests += other->Traffic.requests;
+    this->Traffic.bytes += other->Traffic.bytes;
+    this->Traffic.cacheHits += other->Traffic.cacheHits;
+    this->Traffic.cacheBytes += other->Traffic.cacheBytes;
     this->Complete = this->Complete && other->Complete;
     this->Outdated = this->Outdated || other->Outdated;
     this->Build = this->Build.empty() ? other->Build : this->Build;
@@ -73,7 +80,11 @@ void vtkPVPointFrontFrame::CopyToStream(vtkClientServerStream* stream)
           << static_cast<vtkTypeInt64>(this->NodesDrawn) << this->ProjectedSpacing
           << (this->Complete ? 1 : 0) << (this->Outdated ? 1 : 0) << this->HostMemoryBudget
           << this->Limits << static_cast<vtkTypeInt64>(this->StorePoints) << this->Build
-          << this->Technique << vtkClientServerStream::End;
+          << this->Technique << static_cast<vtkTypeInt64>(this->MissingNodes)
+          << static_cast<vtkTypeUInt64>(this->Traffic.requests)
+          << static_cast<vtkTypeUInt64>(this->Traffic.bytes)
+          << static_cast<vtkTypeUInt64>(this->Traffic.cacheHits)
+          << static_cast<vtkTypeUInt64>(this->Traffic.cacheBytes) << vtkClientServerStream::End;
 }
 
 //------------------------------------------------------------------------------
@@ -86,11 +97,16 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   int outdated = 0;
   std::string build;
   std::string technique;
+  vtkTypeInt64 missing = 0;
+  vtkTypeUInt64 far[4] = {}; // requests, bytes, cache hits, their bytes
   if (!stream->GetArgument(0, 0, &points) || !stream->GetArgument(0, 1, &nodes) ||
     !stream->GetArgument(0, 2, &this->ProjectedSpacing) || !stream->GetArgument(0, 3, &complete) ||
     !stream->GetArgument(0, 4, &outdated) || !stream->GetArgument(0, 5, &this->HostMemoryBudget) ||
     !stream->GetArgument(0, 6, &this->Limits) || !stream->GetArgument(0, 7, &all) ||
-    !stream->GetArgument(0, 8, &build) || !stream->GetArgument(0, 9, &technique))
+    !stream->GetArgument(0, 8, &build) || !stream->GetArgument(0, 9, &technique) ||
+    !stream->GetArgument(0, 10, &missing) || !stream->GetArgument(0, 11, &far[0]) ||
+    !stream->GetArgument(0, 12, &far[1]) || !stream->GetArgument(0, 13, &far[2]) ||
+    !stream->GetArgument(0, 14, &far[3]))
   {
     vtkErrorMacro("The server's frame cannot be read: client and server have different plugins. "
                   "Load the same build of the PointFront plugin on both.");
@@ -103,6 +119,8 @@ void vtkPVPointFrontFrame::CopyFromStream(const vtkClientServerStream* stream)
   this->Outdated = outdated != 0;
   this->Build = build;
   this->Technique = technique;
+  this->MissingNodes = static_cast<vtkIdType>(missing);
+  this->Traffic = { far[0], far[1], 0, far[2], far[3] };
 }
 
 //------------------------------------------------------------------------------
@@ -110,6 +128,14 @@ std::string vtkPVPointFrontFrame::GetPointsInView() const
 {
   return pointfront::groupedDigits(static_cast<std::uint64_t>(this->PointsDrawn)) + " of " +
     pointfront::groupedDigits(static_cast<std::uint64_t>(this->StorePoints));
+}
+
+//------------------------------------------------------------------------------
+std::string vtkPVPointFrontFrame::GetTraffic() const
+{
+  const std::string text = pointfront::trafficText(
+    this->Traffic, static_cast<std::uint64_t>(std::max<vtkIdType>(this->MissingNodes, 0)));
+  return text.empty() ? "none" : text;
 }
 
 //------------------------------------------------------------------------------
@@ -157,6 +183,7 @@ void vtkPVPointFrontFrame::PrintSelf(ostream& os, vtkIndent indent)
      << indent << "ProjectedSpacing: " << this->ProjectedSpacing << " px\n"
      << indent << "HostMemoryBudget: " << this->HostMemoryBudget << " MiB\n"
      << indent << "LimitedBy: " << this->GetLimitedBy() << "\n"
+     << indent << "Traffic: " << this->GetTraffic() << "\n"
      << indent << "ExpectedDifference: " << this->GetExpectedDifference() << "\n"
      << indent << "Complete: " << this->Complete << "\n"
      << indent << "Outdated: " << this->Outdated << "\n";

@@ -12,6 +12,8 @@
 #include "pointfrontParaViewRepresentationsModule.h" // for the export macro
 #include "vtkPVInformation.h"
 
+#include "pointfront/Disk/ByteTraffic.h" // for counts
+
 #include <string> // for words
 
 class POINTFRONTPARAVIEWREPRESENTATIONS_EXPORT vtkPVPointFrontFrame : public vtkPVInformation
@@ -37,6 +39,10 @@ public:
 
   /// "412,345 of 697,721": points drawn and points of the store.
   std::string GetPointsInView() const;
+
+  /// "34 requests, 1.2 MB; 0.3 MB from the cache": what all processes have had from servers so far,
+  /// for all of their clouds, and how many nodes of this one could not be had. "none".
+  std::string GetTraffic() const;
 
   /// The limits of all processes together: bits of vtkPointFrontRepresentation::FrameLimits, and
   /// the same in words.
@@ -70,6 +76,8 @@ private:
   vtkIdType StorePoints = 0;
   vtkIdType NodesDrawn = 0;
   double ProjectedSpacing = 0.0;
+  pointfront::TrafficCounts Traffic;
+  vtkIdType MissingNodes = 0;
   int HostMemoryBudget = 0;
   int Limits = 0;
   bool Complete = true;

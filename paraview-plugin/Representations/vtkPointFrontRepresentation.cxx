@@ -11,8 +11,6 @@
 #include "UpstreamReader.h"
 #include "vtkPVPointFilesReader.h"
 
-#include "pointfront/Style/QualityPreset.h"
-
 #include "vtkCommand.h"
 #include "vtkDataObject.h"
 #include "vtkInformation.h"
@@ -203,8 +201,8 @@ void vtkPointFrontRepresentation::PrepareFrame(vtkInformation* inInfo, vtkPVRend
   const double frameTime =
     this->TargetFrameTime > 0.0 || !interactive ? this->TargetFrameTime : 1000.0 / rate;
   this->Mapper->SetTargetFrameTime(frameTime);
-  const auto* preset = pointfront::qualityPresetOf(this->Choice->look.quality);
-  this->Mapper->SetTargetError(preset ? preset->errorPx : this->TargetError);
+  const auto preset = this->Choice->look.preset(); // the style tells of one that is none
+  this->Mapper->SetTargetError(preset && *preset ? (*preset)->errorPx : this->TargetError);
 
   this->Classes->apply(*this->Mapper);
   this->PrepareColors();
@@ -731,6 +729,12 @@ std::string vtkPointFrontRepresentation::GetTechniqueDrawn()
 vtkIdType vtkPointFrontRepresentation::GetStorePoints()
 {
   return this->IsDrawing() ? this->Mapper->GetStore()->GetNumberOfPoints() : 0;
+}
+
+//------------------------------------------------------------------------------
+vtkIdType vtkPointFrontRepresentation::GetMissingNodes()
+{
+  return this->IsDrawing() ? this->Mapper->GetLastFailedNodes() : 0;
 }
 
 //------------------------------------------------------------------------------

@@ -132,9 +132,9 @@ public:
    * draws: see vtkPointFrontMapper::SetBackend.
    */
   void SetTechnique(const char* name);
-  /// "draft", "balanced" or "exact": technique, size and target error as
-  /// vtkPointFrontMapper::SetQuality has them, whatever is set of these. "custom" (default): what
-  /// is set.
+  /// "draft", "balanced" or "exact", an SSIM or a time ("0.95", "33ms"): technique, size and target
+  /// error as vtkPointFrontMapper::SetQuality has them, whatever is set of these. "custom"
+  /// (default): what is set. Anything else is an error of the next frame.
   void SetQuality(const char* name);
   void SetClosingSize(int closing);
   void SetSizeFactor(double factor);
@@ -237,6 +237,9 @@ public:
 
   /// Points of the store that is drawn, all of them; 0 on a process that draws nothing.
   vtkIdType GetStorePoints();
+
+  /// Nodes of this process's last frame that could not be read, and are missing in the picture.
+  vtkIdType GetMissingNodes();
 
   /// Why the last frame of this process has not reached the target error: bits.
   enum FrameLimits

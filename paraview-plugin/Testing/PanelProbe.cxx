@@ -151,7 +151,8 @@ extern "C" Q_DECL_EXPORT int pointfrontChoose(const char* names)
   return -1;
 }
 
-/// As who types a line for a property into the panel; false if there is no such line.
+/// As who types a line for a property into the panel, in the place of what stands there; false if
+/// there is no such line.
 extern "C" Q_DECL_EXPORT bool pointfrontType(const char* property, const char* text)
 {
   for (QWidget* widget : QApplication::allWidgets())
@@ -160,6 +161,7 @@ extern "C" Q_DECL_EXPORT bool pointfrontType(const char* property, const char* t
       widget->objectName() == property)
     {
       auto* const line = widget->findChild<QLineEdit*>();
+      line ? line->selectAll() : void();
       for (const auto& [key, typed] : { std::pair<int, QString>{ Qt::Key_unknown, text },
              std::pair<int, QString>{ Qt::Key_Return, "\r" } })
       {

@@ -6,6 +6,7 @@ import random
 
 import numpy
 from expected import compare, exported, surveys
+from pictures import differing, load
 from programs import HERE, mpi, python_client, tool, with_server
 
 
@@ -90,6 +91,37 @@ def series(programs):
     command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
     programs.run(*command)
     programs.run(*mpi(2, *command))
+
+
+def epochs(programs):
+    """Each step of the time slider shows what the tool draws of the epoch."""
+    bounds = json.loads(tool("info", os.environ["POINTFRONT_STORE"], "--json"))["bounds"]
+    middle = 0.5 * (bounds[0] + bounds[3])
+    city = os.path.abspath("city.pfcollection")
+    steps = []
+    for time, epoch, west, east in ((2019, "2019", bounds[0] - 1, middle),
+                                    (2024.5, "2024-07", middle - 300, bounds[3] + 1)):
+        tool("export", os.environ["POINTFRONT_STORE"], "-o", epoch + ".las", "--force", "--box",
+             "%r,%r,%r,%r,%r,%r" % (west, bounds[1] - 1, bounds[2] - 1, east, bounds[4] + 1,
+                                    bounds[5] + 1))
+        tool("build", epoch + ".las", "-o", epoch + ".pfront", "--force")
+        if steps:
+            tool("collection", "add", city, epoch + ".pfront", "--epoch", epoch)
+        else:
+            tool("collection", "create", city, epoch + ".pfront", "--epoch", epoch, "--force")
+        steps.append((time, json.loads(tool("info", city, "--epoch", epoch, "--json"))["points"]))
+        tool("render", city, "--epoch", epoch, "-o", "epoch-%d.png" % (len(steps) - 1), "--size",
+             "640x360", "--camera", os.environ["POINTFRONT_CAMERA"], "--color-by", "rgb",
+             "--point-size", "2", "--error", "0.01", "--background", "0,0,0")
+    os.environ["POINTFRONT_STORE"] = city
+    for ranks in (1, 2):
+        name = "slider-%d" % ranks
+        programs.run(*mpi(ranks, os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "epochs.py"),
+                          json.dumps(steps), name))
+        for number in range(len(steps)):
+            compare("%s-%d" % (name, number), "epoch-%d" % number)
+    if not differing(load("epoch-0.png"), load("epoch-1.png"), 8) > 0.1:
+        raise AssertionError("the epochs look alike")
 
 
 def extract(programs):

@@ -256,6 +256,15 @@ def panel(programs):
     finally:
         if os.path.exists("panel.json"):
             print(open("panel.json").read())
+    with open("panel.json") as file:
+        found = json.load(file)
+    # Ten ticks of the script's own are in the seconds, and what Python does in them.
+    if found["frames"] != 0 or not 0.0 <= found["seconds"] < 0.1:
+        raise AssertionError("at rest, in two seconds: %d frames, %.3f s of processors"
+                             % (found["frames"], found["seconds"]))
+    _, technique, error, told = found["quality"]
+    if not told.startswith("quality 0.9: ") or " at %g px" % error not in told:
+        raise AssertionError("a typed quality is %s at %g: %s" % (technique, error, told))
 
 
 def panel_width(programs):

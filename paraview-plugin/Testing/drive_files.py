@@ -5,16 +5,22 @@ import csv
 import glob
 import json
 import os
+import pathlib
 import re
 import shlex
 import shutil
 import subprocess
 import sys
+import urllib.request
 
 import numpy
 import pictures
 from expected import compare, exported
 from programs import HERE, mpi, python_client, tool, with_server
+
+sys.path.insert(0, os.path.join(HERE, "..", "..", "Testing", "Whole"))
+# pylint: disable=wrong-import-position
+import virtual_clouds
 
 
 def files(programs):
@@ -98,8 +104,23 @@ def served(folder):
         server.stdin.close()
 
 
+def write_tiles(origin):
+    """far.vpc: the points of the store in two COPC files, and a third one far away."""
+    items = []
+    for name, where in (("dark", "intensity <= 100"), ("bright", "intensity > 100")):
+        tool("export", "cloud.pfront", "-o", name + ".copc.laz", "--force", "--where", where)
+        tile = virtual_clouds.Tile(name + ".copc.laz")
+        items.append(virtual_clouds.item(f"{origin}/{name}.copc.laz", [*tile.low, *tile.high],
+                                         tile.points))
+    content, box = tile.moved((3000, 0, 0))
+    with open("away.copc.laz", "wb") as file:
+        file.write(content)
+    items.append(virtual_clouds.item(f"{origin}/away.copc.laz", box, tile.points))
+    return virtual_clouds.write_list(pathlib.Path("far.vpc").absolute(), items)
+
+
 def far(programs):
-    """A cloud by its address, in the application and on a server with two ranks; a list of it."""
+    """A cloud by its address, in the application and on a server with two ranks; lists of it."""
     for name in [name for name in os.environ if name.lower().endswith("_proxy")]:
         del os.environ[name]
     os.environ["POINTFRONT_CACHE"] = "off"
@@ -114,17 +135,25 @@ def far(programs):
         finally:
             if os.path.exists("far_panel.json"):
                 print(open("far_panel.json").read())
-        with_server(programs, python_client("far.py", address, os.path.abspath("far.pfronts")))
+        shutil.rmtree("a cache", ignore_errors=True)
+        with_server(programs, python_client("far.py", address, os.path.abspath("far.pfronts"),
+                                            str(write_tiles(origin))))
+        with urllib.request.urlopen(origin + "/~log") as log:
+            asked = {one["path"] for one in json.load(log)["requests"]}
     with open("far_panel.json") as file:
         seen = json.load(file)
     points = "{:,}".format(int(os.environ["POINTFRONT_POINTS"]))
     if not seen["frame"][1].endswith(" of " + points) or not seen["store"].startswith(points):
         raise AssertionError("by the panel: %s" % seen)
     compare("far", "tool")
-    compare("far-list", "tool")
+    for name in ("list", "vpc", "kept", "offline"):
+        compare("far-" + name, "tool")
+    if not {"/dark.copc.laz", "/bright.copc.laz"} <= asked:
+        raise AssertionError("the tiles were not read: %s" % asked)
     told = open("server.log").read()
-    if not 1 <= told.count("ERR|") <= 2 or "none.pfront" not in told or "SECRET" in told:
-        raise AssertionError("what is said of an address that names nothing: " + told)
+    if (not 2 <= told.count("ERR|") <= 4 or "none.pfront" not in told or
+            "is not in the cache" not in told or "SECRET" in told):
+        raise AssertionError("what is said of addresses that name nothing: " + told)
 
 
 def written(programs):
@@ -214,7 +243,7 @@ def first_hour(programs):
 
 
 def previewed(programs, *ways):
-    points = 4000000  # some seconds of work, in which some pictures are drawn
+    points = 1500000  # some seconds of work, in which some pictures are drawn
     for way in ways:
         name = "large-%s.las" % way
         for old in glob.glob("large-%s*" % way) + glob.glob("preview*.*"):

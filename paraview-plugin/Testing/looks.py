@@ -83,6 +83,23 @@ for name, value in (("Technique", "points"), ("TargetError", 0.7), ("ClosingSize
     display.Quality = "balanced"
     setattr(display, name, value)
     require(display.Quality == "custom", "%s, and still %s" % (name, widgets()))
+# A number is the place on the curve that has it, and the panel says which.
+for number, unit in (("0.9", "SSIM"), ("12ms", "ms")):
+    display.Quality = number
+    technique, error = display.Technique, display.TargetError
+    told = display.SMProxy.GetProperty("QualityChosen").GetElement(0)
+    print(widgets(), told)
+    require(widgets() == [number, technique, error, closing], str(widgets()))
+    require(technique in ("splats", "blended", "ewa") and told.startswith(
+        "quality %s: " % number) and unit in told and " at %g px" % error in told, told)
+    asked = picture("quality-" + number)
+    display.Quality = "custom"
+    require(display.SMProxy.GetProperty("QualityChosen").GetElement(0) == "", "it is still told")
+    require(pictures.differing(asked, picture("parts-" + number), 0) == 0 or technique == "ewa",
+            "%s is not what it says" % number)
+    display.Quality = number
+    display.TargetError = error + 0.1
+    require(display.Quality == "custom", "another error, and still %s" % widgets())
 display.Quality = "balanced"
 balanced = picture("balanced")
 display.Quality = "custom"

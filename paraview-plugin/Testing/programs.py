@@ -90,10 +90,11 @@ class Programs:
 
 def mpi(ranks, program, *arguments):
     # One machine, no network: shared memory between the ranks, no remote shell. A waiting rank
-    # leaves its core to others.
+    # yields its core, and sleeps where it does (idle_ranks.cxx).
     return [os.environ["POINTFRONT_MPIEXEC"], "--allow-run-as-root", "--oversubscribe",
             "--mca", "btl", "self,vader", "--mca", "plm_rsh_agent", "false",
             "--mca", "mpi_yield_when_idle", "1",
+            "-x", "LD_PRELOAD=" + os.environ["POINTFRONT_IDLE_RANKS"],
             "-np", str(ranks), program, *arguments]
 
 

@@ -3,6 +3,7 @@
 #include "CloudFormats.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/ByteTraffic.h"
 #include "pointfront/Disk/Epoch.h"
 #include "pointfront/Residency/LoadScheduler.h"
 #include "pointfront/Residency/ResidencyShare.h"
@@ -333,6 +334,21 @@ vtkIdType vtkPointFrontStore::GetNumberOfPointsOfAllStores()
     points += entry.second != nullptr ? entry.second->GetNumberOfPoints() : 0;
   }
   return points;
+}
+
+vtkTypeInt64 vtkPointFrontStore::GetNumberOfFarRequests()
+{
+  return static_cast<vtkTypeInt64>(pointfront::ByteTraffic::ofProcess().requests);
+}
+
+vtkTypeInt64 vtkPointFrontStore::GetNumberOfFarBytes()
+{
+  return static_cast<vtkTypeInt64>(pointfront::ByteTraffic::ofProcess().bytes);
+}
+
+vtkTypeInt64 vtkPointFrontStore::GetNumberOfCachedBytes()
+{
+  return static_cast<vtkTypeInt64>(pointfront::ByteTraffic::ofProcess().cacheBytes);
 }
 
 int vtkPointFrontStore::GetNumberOfAttributes() const

@@ -76,6 +76,16 @@ public:
   vtkIdType GetNumberOfPoints() const;
   /// Points of all stores that are open in this process.
   static vtkIdType GetNumberOfPointsOfAllStores();
+  ///@{
+  /**
+   * Traffic of this process with servers so far, of all stores behind addresses together: requests
+   * (those after a fault or a redirection, too), bytes that were fetched, and bytes that came from
+   * the cache on the disk instead. 0 for files.
+   */
+  static vtkTypeInt64 GetNumberOfFarRequests();
+  static vtkTypeInt64 GetNumberOfFarBytes();
+  static vtkTypeInt64 GetNumberOfCachedBytes();
+  ///@}
   int GetNumberOfAttributes() const;
   const char* GetAttributeName(int attribute) const;
 

@@ -302,6 +302,22 @@ std::string vtkPointFrontStyle::GetFilter(int objectClass) const
   return this->StyleOf(objectClass).where->text;
 }
 
+bool vtkPointFrontStyle::SetEpoch(const std::string& epoch, int objectClass)
+{
+  return this->ChangeStyle(
+    objectClass, [&epoch](pointfront::LayerStyle& style) { style.epoch = epoch; });
+}
+
+bool vtkPointFrontStyle::ShowAllEpochs(int objectClass)
+{
+  return this->ChangeStyle(objectClass, [](pointfront::LayerStyle& style) { style.epoch.reset(); });
+}
+
+std::string vtkPointFrontStyle::GetEpoch(int objectClass) const
+{
+  return this->StyleOf(objectClass).epoch.value_or(std::string());
+}
+
 bool vtkPointFrontStyle::SetCommonFilter(const std::string& where)
 {
   const auto filter = pointfront::FilterExpression::parse(where);

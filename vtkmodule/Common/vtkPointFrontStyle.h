@@ -126,6 +126,18 @@ public:
 
   ///@{
   /**
+   * The epoch of a collection whose points are drawn, for a class or for all classes without one of
+   * their own: "2024-07"; "" is that of tiles that name none. SetLensStyle() takes another one for
+   * the inside of a lens: {"epoch": "2019"}. A collection without that epoch is the mapper's error.
+   * ShowAllEpochs() undoes it, as at first; GetEpoch() is empty then, too.
+   */
+  bool SetEpoch(const std::string& epoch, int objectClass = -1);
+  bool ShowAllEpochs(int objectClass = -1);
+  std::string GetEpoch(int objectClass = -1) const;
+  ///@}
+
+  ///@{
+  /**
    * A further condition that holds for all classes.
    */
   bool SetCommonFilter(const std::string& where);

@@ -25,6 +25,7 @@ from . import _host
 from ._calls import BuildReport, build, index
 from ._clouds import Cloud, open
 from ._errors import PointFrontError, PointFrontWarning, did_you_mean
+from ._far import traffic
 from ._host import VTK_PACKAGE
 from ._pictures import Picture
 from ._version import __version__

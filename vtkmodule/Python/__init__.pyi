@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
 
 import numpy
 
@@ -29,6 +29,7 @@ class BuildReport:
     points_read: int
     points_stored: int
     points_rejected: int
+    points_outside: int
     files_skipped: int
     nodes: int
     bytes_written: int
@@ -44,6 +45,7 @@ def build(
     normals: str = ...,
     attributes: Optional[Iterable[str]] = ...,
     color_from: Union[_Path, Iterable[_Path]] = ...,
+    box: Optional[_Box] = ...,
     progress: _Progress = ...,
     **options: Any,
 ) -> BuildReport: ...
@@ -168,7 +170,17 @@ class Cloud:
     ) -> Picture: ...
     def show(self, *, size: Tuple[int, int] = ..., title: Optional[str] = ...) -> Any: ...
 
-def open(path: _Path, *, headers: Optional[Mapping[str, str]] = ..., token: Optional[str] = ...) -> Cloud: ...
+def open(
+    path: _Path,
+    *,
+    headers: Optional[Mapping[str, str]] = ...,
+    token: Optional[str] = ...,
+    offline: Optional[bool] = ...,
+    cache: Union[None, _Path, Literal[False]] = ...,
+    cache_size: Union[None, int, str] = ...,
+    timeout: Optional[float] = ...,
+) -> Cloud: ...
+def traffic() -> Dict[str, int]: ...
 
 # The wrapped VTK classes: vtkPointFrontReader, vtkPointFrontMapper ...
 def __getattr__(name: str) -> Any: ...

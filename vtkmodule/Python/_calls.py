@@ -5,6 +5,7 @@ import os
 
 from . import _arrays, _kernel
 from ._errors import PointFrontError, did_you_mean, warn
+from ._queries import box_of, finite
 
 
 class BuildReport:
@@ -14,6 +15,7 @@ class BuildReport:
     points_read     points of all inputs
     points_stored   those that are in the store
     points_rejected those that are no positions
+    points_outside  points that were read besides, and lie outside of the box
     files_skipped   inputs that were left out (skip_faulty)
     nodes           of the store
     bytes_written   size of the store
@@ -25,6 +27,7 @@ class BuildReport:
         self.points_read = answer["points_read"]
         self.points_stored = answer["points_stored"]
         self.points_rejected = self.points_read - self.points_stored
+        self.points_outside = answer["points_outside"]
         self.files_skipped = len(answer["skipped"])
         self.nodes = answer["nodes"]
         self.bytes_written = answer["bytes_written"]
@@ -101,7 +104,7 @@ def _chosen(what, name):
 
 
 def build(inputs, output, *, structure="octree", refinement="add", layers="auto", normals="none",
-          attributes=None, color_from=(), progress=None, **options):
+          attributes=None, color_from=(), box=None, progress=None, **options):
     """Build a store from point files and stores. A path is a str, bytes or an os.PathLike.
 
     inputs      a path, or several: LAS, LAZ, PLY, PCD, text, ept.json, .pfront, .pfindex, folders
@@ -115,6 +118,9 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     normals     "none", "pca" or "scanline"
     attributes  names of those to store; None: all
     color_from  georeferenced images
+    box         ((x0, y0, z0), (x1, y1, z1)), or six numbers in that order: only points inside or on
+                it, in the inputs' coordinates. Of stores, COPC, EPT and collections, on a disk or
+                by their address, no more is read than it needs
     progress    called with (phase, fraction) some ten times a second; False stops the build.
                 True: a bar, by the package tqdm
     options     overwrite, skip_faulty, memory_limit (bytes), number_of_threads, node_points,
@@ -125,7 +131,8 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
                 `pointfront build`
 
     Returns a BuildReport. What was wrong and survived is a PointFrontWarning. Raises
-    PointFrontError; ValueError and TypeError for arrays that are no points; KeyboardInterrupt at
+    PointFrontError, also if no point lies in the box; ValueError and TypeError for arrays that are
+    no points, and for a box that is none; KeyboardInterrupt at
     once when the user interrupts. Nothing is left behind then. Other threads run meanwhile.
     """
     path = os.fsdecode(output)
@@ -133,6 +140,8 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
                "refinement": _chosen("refinement", refinement),
                "layers": _chosen("layers", layers), "normals": _chosen("normals", normals),
                "color_from": _paths(color_from), **_plain(options)}
+    if box is not None:
+        request["box"] = [finite(end) for end in box_of(box)]
     if attributes is not None:
         request["attributes"] = _texts(attributes)
     columns = None

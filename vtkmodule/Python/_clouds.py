@@ -297,14 +297,22 @@ def _in_notebook():
     return shell is not None and hasattr(shell, "kernel")
 
 
-def open(path, *, headers=None, token=None):  # as in gzip.open: the module's name says what
+def open(path, *, headers=None, token=None,  # as in gzip.open: the module's name says what
+         offline=None, cache=None, cache_size=None, timeout=None):
     """Open a stored cloud; see Cloud. Raises PointFrontError.
 
-    headers  {"Name": "value"} of requests to the server of an address
-    token    the header "Authorization: Bearer TOKEN"
+    headers     {"Name": "value"} of requests to the server of an address
+    token       the header "Authorization: Bearer TOKEN"
+    offline     True: no server is asked; the cloud is what the cache has
+    cache       the folder of the cache on the disk; False: none
+    cache_size  most bytes in that folder, also as "512M" or "4G"; 0: no cache
+    timeout     seconds that a read waits while nothing comes, at most
 
-    Headers and a token are for all clouds of that server which this process opens from then on.
+    Headers and a token are for all clouds of that server which this process opens from then on. The
+    others are for this cloud alone, its pictures and exports included, and for addresses only; None
+    is what the environment says (POINTFRONT_OFFLINE, POINTFRONT_CACHE, POINTFRONT_CACHE_SIZE,
+    POINTFRONT_REMOTE_TIMEOUT).
     """
     if headers is not None or token is not None:
         _far.use_headers(path, headers, token)
-    return Cloud(path)
+    return Cloud(_far.with_settings(path, offline, cache, cache_size, timeout))

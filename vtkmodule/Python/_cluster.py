@@ -9,6 +9,7 @@ import asyncio
 import contextlib
 import ctypes
 import json
+import logging
 import os
 import pathlib
 import shlex
@@ -20,6 +21,7 @@ import threading
 import time
 import uuid
 
+from . import _bucket
 from ._errors import PointFrontError
 from ._host import TOOL
 
@@ -37,8 +39,8 @@ def parser():
                     "bytes, by many processes. Takes all options of `pointfront build`: --memory "
                     "and --threads hold for each process. The same command goes on where it was "
                     "stopped.")
-    made.add_argument("-o", "--output", required=True, metavar="FOLDER",
-                      help="a folder that all workers see under this name")
+    made.add_argument("-o", "--output", required=True, metavar="FOLDER|s3://BUCKET/PREFIX",
+                      help="a folder that all workers see under this name, or a bucket")
     where = made.add_mutually_exclusive_group()
     where.add_argument("--local", type=int, metavar="N",
                        help="so many processes on this machine (one for two cores)")
@@ -65,38 +67,89 @@ def _dies_with_its_worker():
         ctypes.CDLL(None).prctl(set_death_signal, signal.SIGKILL)
 
 
-def run_step(step, arguments, folder, working_folder, stop):
+class _Folder:
+    """An output that all workers see under one name: steps are done in it."""
+
+    options, environment = (), None
+
+    def __init__(self, folder):
+        self.folder = pathlib.Path(folder)
+        self.address = str(folder)
+
+    def prepare(self, step):
+        """Nothing: what the step needs is there."""
+
+    publish = prepare
+
+    def public(self, text):
+        return text
+
+    def path(self, name):
+        return self.folder / name
+
+    def log(self, name, text):
+        logs = self.path(LOGS)
+        logs.mkdir(parents=True, exist_ok=True)
+        with open(logs / name, "a", encoding="utf-8") as log:
+            log.write(text)
+
+    def stop(self, mark, wanted=True):
+        """Ends the steps of a run, or takes the word back."""
+        if not wanted:
+            self.path(mark).unlink()
+        elif self.path(mark).parent.is_dir():
+            self.path(mark).touch()
+
+    def stopped(self, mark):
+        return self.path(mark).exists()
+
+
+def _place(output, run):
+    return _bucket.Workplace.of(output, run) if _bucket.is_bucket(output) else _Folder(output)
+
+
+def run_step(step, arguments, output, working_folder, stop):
     """Runs one step of the tool, on whichever machine a worker is; gives the error's text, or None.
 
-    `stop` is a file: when it appears, the step is ended. What the tool says goes to
-    FOLDER/work/logs. RuntimeError: a signal ended the tool (no memory, for one).
+    `output` is a folder or a bucket's address. `stop` is the name of a file there: when it appears,
+    the step is ended. What the tool says goes to work/logs. RuntimeError: a signal ended the tool
+    (no memory, for one).
     """
     if not os.path.isdir(working_folder):
         return f"{socket.gethostname()} has no folder {working_folder}: all workers need the same"
-    command = [str(TOOL), *arguments, "--only", step, "--progress", "none"]
-    logs = pathlib.Path(folder, LOGS)
-    logs.mkdir(parents=True, exist_ok=True)
+    try:
+        return _run_at(_place(output, stop), step, arguments, working_folder, stop)
+    except PointFrontError as problem:
+        return str(problem)
+
+
+def _run_at(place, step, arguments, working_folder, stop):
+    place.prepare(step)
+    command = [str(TOOL), *arguments, *place.options, "--only", step, "--progress", "none"]
     begin = time.time()
     with subprocess.Popen(command, cwd=working_folder, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=place.environment,
                           preexec_fn=_dies_with_its_worker) as process:
         said = None
         while said is None:
             try:
                 said = process.communicate(timeout=POLL)[0].decode(errors="replace")
             except subprocess.TimeoutExpired:
-                if os.path.exists(stop):
+                if place.stopped(stop):
                     process.terminate()
         status = process.returncode
-    with open(logs / f"{step.replace(':', '-')}.log", "a", encoding="utf-8") as log:
-        log.write(f"{time.strftime('%Y-%m-%d %H:%M:%S', time.localtime(begin))} "
-                  f"{socket.gethostname()} {shlex.join(command)}\n{said}"
-                  f"status {status} after {time.time() - begin:.1f} s\n")
+    place.log(f"{step.replace(':', '-')}.log",
+              f"{time.strftime('%Y-%m-%d %H:%M:%S', time.localtime(begin))} "
+              f"{socket.gethostname()} {shlex.join(command)}\n{said}"
+              f"status {status} after {time.time() - begin:.1f} s\n")
+    logs = f"{place.address}/{LOGS}"
     if status < 0:
         raise RuntimeError(f"{step}: ended by {signal.Signals(-status).name}; see {logs}")
     if status == 0:
+        if "was done before" not in said:
+            place.publish(step)
         return None
-    lines = [line for line in said.splitlines() if ": warning: " not in line]
+    lines = [line for line in place.public(said).splitlines() if ": warning: " not in line]
     return lines[-1] if lines else f"{step}: ended with status {status}; see {logs}"
 
 
@@ -155,30 +208,37 @@ class _Keeper(threading.Thread):
 class ClusterBuild:
     """One build: its steps, and the client that has them run."""
 
-    def __init__(self, client, arguments, folder, progress):
+    def __init__(self, client, arguments, output, progress):
         self.client = client
-        self.folder = pathlib.Path(folder)
+        self.output = output
         self.arguments = arguments
         self.progress = progress
         self.futures = {}  # those that are waited for: the step of each
-        self.stop = self.folder / "work" / f"stop-{uuid.uuid4().hex}"
+        self.run_name = f"stop-{uuid.uuid4().hex}"
+        self.stop = f"work/{self.run_name}"  # a file of the output
+        self.place = _place(output, self.stop)
+        self.done = False
 
     def work(self, name):
-        return json.loads((self.folder / "work" / name).read_text(encoding="utf-8"))
+        with open(self.place.path(f"work/{name}"), encoding="utf-8") as file:
+            return json.load(file)
 
     def here(self, step, *options):
         """A short step, on this machine: stdout."""
-        done = subprocess.run([str(TOOL), *self.arguments, "--only", step, "--progress", "none",
-                               *options],
+        self.place.prepare(step)
+        done = subprocess.run([str(TOOL), *self.arguments, *self.place.options, "--only", step,
+                               "--progress", "none", *options], env=self.place.environment,
                               stdin=subprocess.DEVNULL, capture_output=True, text=True, check=False)
-        for line in done.stderr.splitlines():
+        said = self.place.public(done.stderr).splitlines()
+        for line in said:
             if ": warning: " in line:
                 print(line, file=sys.stderr)
         if done.returncode != 0:
-            lines = [line for line in done.stderr.splitlines() if ": warning: " not in line]
+            lines = [line for line in said if ": warning: " not in line]
             prefix = "pointfront build: "
             raise StepFailed((lines or [f"{step} failed"])[-1].removeprefix(prefix))
-        return done.stdout
+        self.place.publish(step)
+        return self.place.public(done.stdout)
 
     def everywhere(self, phase, weights, share_before, share):
         """Runs steps, given with their weights, on the workers. Those that fail do not keep others
@@ -187,11 +247,13 @@ class ClusterBuild:
         from distributed import as_completed
 
         total = sum(weights.values()) or 1
-        futures = self.futures = {
-            self.client.submit(run_step, step, self.arguments, str(self.folder), os.getcwd(),
-                               str(self.stop), key=f"{step}-{self.stop.name}", retries=RETRIES,
-                               pure=False): step
-            for step in weights}
+        # Keys of one group, whose tasks the scheduler keeps until a worker is free. Others it deals
+        # out at once, without knowing how long they take, and some workers end long before others.
+        keys = [f"('{phase}-{self.run_name}', {number})" for number in range(len(weights))]
+        futures = self.futures = dict(zip(self.client.map(
+            run_step, list(weights), key=keys, retries=RETRIES, pure=False,
+            arguments=self.arguments, output=self.output, working_folder=os.getcwd(),
+            stop=self.stop), weights))
         done, faults = 0, []
         self.progress.show(phase, 0, len(weights), share_before)
         weight = 0
@@ -211,7 +273,7 @@ class ClusterBuild:
         if faults:
             some = "; ".join(faults[:5])
             raise StepFailed(f"{len(faults)} of {len(weights)} {phase} failed (the others are "
-                             f"done; the same command goes on; logs: {self.folder}/{LOGS}): "
+                             f"done; the same command goes on; logs: {self.output}/{LOGS}): "
                              f"{some}")
 
     def run(self):
@@ -222,8 +284,12 @@ class ClusterBuild:
         self.everywhere("surveys", surveys, 0, 0.25)
         self.here("settle")
         tiles = self.work("tiles.json")["tiles"]
+        # The largest first: no worker is left alone with one at the end.
+        tiles.sort(key=lambda tile: -tile[2])
         self.everywhere("tiles", {f"tile:{x}_{y}": points for x, y, points in tiles}, 0.25, 0.73)
-        return self.here("collect", "--json")
+        report = self.here("collect", "--json")
+        self.done = True
+        return report
 
 
 def _client(chosen):
@@ -236,14 +302,30 @@ def _client(chosen):
             f"needs the package distributed ({problem}): pip install 'pointfront[cluster]'; on "
             "Debian python3-distributed") from problem
     # A worker that dies is no fault of its step.
-    dask.config.set({"distributed.scheduler.allowed-failures": TRIES})
+    dask.config.set({"distributed.scheduler.allowed-failures": TRIES,
+                     "distributed.scheduler.worker-saturation": 1.0})  # no step waits at a worker
     if chosen.scheduler:
+        logging.disable(logging.ERROR)  # Dask logs tracebacks of what main() says in one line
         return distributed.Client(chosen.scheduler, timeout=20), None
     workers = chosen.local or max(1, (os.cpu_count() or 2) // 2)
     cluster = distributed.LocalCluster(
         n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
         dashboard_address=None, silence_logs=50)
     return distributed.Client(cluster), cluster
+
+
+def _output(output, rest):
+    """The output as workers name it, and the tool's options for it."""
+    if not _bucket.is_bucket(output):
+        folder = os.path.abspath(output)
+        return folder, ["-o", folder]
+    address = _bucket.Bucket(output).address
+    words = " ".join(rest).replace("=", " ")
+    if "--decode once" in words:
+        raise PointFrontError(
+            "--decode once keeps decoded points in the output's folder, and a bucket is none; "
+            "leave --decode out, or build into a folder")
+    return address, [] if "--decode" in words.split() else ["--decode", "twice"]
 
 
 def _per_process(chosen, rest):
@@ -278,19 +360,19 @@ def _tell(report, as_json):
 def main(arguments):
     """Builds; the exit status."""
     if arguments[:1] != ["build"]:
-        print("usage: pointfront cluster build IN... -o FOLDER [--local N | --scheduler ADDRESS] "
-              "[OPTIONS of pointfront build]", file=sys.stderr)
+        print("usage: pointfront cluster build IN... -o FOLDER|s3://BUCKET/PREFIX "
+              "[--local N | --scheduler ADDRESS] [OPTIONS of pointfront build]", file=sys.stderr)
         return 0 if arguments[:1] in (["-h"], ["--help"]) else 2
     chosen, rest = parser().parse_known_args(arguments[1:])
     rest = [word for word in rest if word != "--tiles"]
-    folder = os.path.abspath(chosen.output)
     progress = _Progress(chosen.progress)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     build, client, cluster, keeper = None, None, None, None
     try:
+        output, options = _output(chosen.output, rest)
         client, cluster = _client(chosen)
-        tool = ["build", *rest, *_per_process(chosen, rest), "-o", folder, "--tiles"]
-        build = ClusterBuild(client, tool, folder, progress)
+        tool = ["build", *rest, *_per_process(chosen, rest), *options, "--tiles"]
+        build = ClusterBuild(client, tool, output, progress)
         if cluster is not None:
             keeper = _Keeper(build, cluster, len(cluster.workers))
             keeper.start()
@@ -304,6 +386,9 @@ def main(arguments):
         return INTERRUPTED
     except (PointFrontError, OSError, ValueError) as problem:
         progress.close()
+        if build is not None and chosen.scheduler and client.status != "running":
+            problem = (f"the scheduler {chosen.scheduler} went away. What is done stays: start it "
+                       "and its workers again, and the same command goes on")
         print(f"pointfront cluster build: {problem}", file=sys.stderr)
         return 1
     finally:
@@ -315,10 +400,10 @@ def main(arguments):
 def _end(build, client, cluster):
     """Ends what still runs, here and on the workers."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
-    stop = build.stop if build and build.stop.parent.is_dir() else None
+    place = build.place if build and not build.done else None
     with contextlib.suppress(Exception):
-        if stop:
-            stop.touch()
+        if place:
+            place.stop(build.stop)
             time.sleep(2 * POLL if cluster is None else 0)
     with contextlib.suppress(Exception):
         if client:
@@ -326,6 +411,6 @@ def _end(build, client, cluster):
     with contextlib.suppress(Exception):
         if cluster:
             cluster.close(timeout=5)
-    with contextlib.suppress(OSError):
-        if stop:
-            stop.unlink()
+    with contextlib.suppress(Exception):
+        if place:
+            place.stop(build.stop, wanted=False)

@@ -13,6 +13,21 @@ _headers = {}  # lines by origin
 _addresses = {}  # whole addresses by their public forms, which name them to the tool
 
 
+def traffic():
+    """Traffic of this process with servers so far, a dictionary of numbers.
+
+    requests       attempts, those after a fault or a redirection included
+    bytes_fetched  all bodies together, bytes
+    retries        requests that were made again
+    cache_hits     reads that the cache on this machine's disk has answered
+    cache_bytes    these reads together, bytes
+
+    Opening, points() and chunks() count. Pictures, exports and `info` are the tool's work, which
+    counts its own: `--stats` of its commands.
+    """
+    return _kernel.traffic()
+
+
 def is_address(name):
     return isinstance(name, str) and "://" in name
 
@@ -58,6 +73,29 @@ def hide_secrets():
         os.execve(sys.executable, words, environment(words))
 
 
+def with_settings(address, offline, cache, cache_size, timeout):
+    """The name under which the kernel opens an address with settings of its own."""
+    words = {}
+    if offline is not None:
+        words["offline"] = int(bool(offline))
+    if cache is not None:
+        words["cache"] = "off" if cache is False else os.path.abspath(os.fsencode(cache))
+    if cache_size is not None:
+        words["cache_size"] = cache_size
+    if timeout is not None:
+        words["timeout"] = timeout
+    if not words:
+        return address
+    if not is_address(address):
+        raise PointFrontError(f"{address}: offline, cache, cache_size and timeout are for "
+                              "addresses, and this is a path")
+    place, sign, rest = address.partition("#")  # "#epoch=2024"
+    if rest.startswith("far:"):
+        _, sign, rest = rest.partition("#")
+    text = urllib.parse.urlencode(words, quote_via=urllib.parse.quote)
+    return f"{place}#far:{text}{sign}{rest}"
+
+
 def told_to_child(path):
     """The path and the headers that open it where it is unpickled.
 
@@ -66,7 +104,10 @@ def told_to_child(path):
     """
     context = sys.modules.get("multiprocessing.context")
     if not is_address(path) or context is None or context.get_spawning_popen() is None:
-        return path, None
+        whole = _addresses.get(path, path)
+        plain = whole.split("#far:")[0]
+        # A mark that stands for settings alone hides nothing.
+        return (whole if "?~" not in _kernel.public_form(plain) else path), None
     return _addresses.get(path, path), _headers.get(origin_of(path))
 
 

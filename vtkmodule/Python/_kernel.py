@@ -48,7 +48,7 @@ def _loaded():
             ("Points", [pointer, ctypes.POINTER(Query), PROGRESS]),
             ("Build", [_BYTES, ctypes.POINTER(_Array), ctypes.c_size_t, ctypes.c_uint64, PROGRESS]),
             ("Index", [_BYTES, _BYTES, ctypes.c_int, ctypes.c_uint32, PROGRESS]),
-            ("ClassNames", []), ("Close", [pointer]), ("Free", [pointer])):
+            ("ClassNames", []), ("Traffic", []), ("Close", [pointer]), ("Free", [pointer])):
         function = getattr(library, f"pointfront{name}")
         function.argtypes = arguments
         function.restype = None if name in ("Close", "Free") else pointer
@@ -86,17 +86,18 @@ class _Call:
         self._problem = None
         self._answer = None
         self.phase = ""
-        self._report = PROGRESS(self._take)  # as long as the kernel may call it
-        self._thread = threading.Thread(target=self._work, args=(function,), daemon=True)
+        # The thread holds what the kernel calls, and lets go of it at its end: it refers to this.
+        self._thread = threading.Thread(target=self._work, args=(function, PROGRESS(self._take)),
+                                        daemon=True)
 
     def _take(self, phase, fraction):
         self._latest = phase.decode(errors="replace"), fraction
         self._changed.set()
         return 0 if self._stopped else 1
 
-    def _work(self, function):
+    def _work(self, function, report):
         try:
-            self._answer = function(self._report)
+            self._answer = function(report)
         except BaseException as problem:
             self._problem = problem
         self._ended = True
@@ -105,9 +106,9 @@ class _Call:
     def run(self, receive):
         """Calls `receive` with (phase, fraction) from this thread, whose False ends the work."""
         raised = None
-        self._thread.start()
         ended = False
         try:
+            self._thread.start()
             while not ended:
                 try:
                     self._changed.wait()
@@ -122,8 +123,8 @@ class _Call:
                     self._stopped = True
         finally:  # an interrupt that strikes between the lines above
             self._stopped = True
-            self._thread.join()
-            self._report = None  # a circle of references would keep the answer
+            if self._thread.is_alive():  # an interrupt may have kept it from starting
+                self._thread.join()
         if raised is not None:
             raise raised
         if self._problem is not None:
@@ -182,6 +183,11 @@ def learn_credentials(text):
 def public_form(address):
     """The address without what is secret, under which this process knows it from now on."""
     return _answer(_library.pointfrontPublicForm(os.fsencode(address)))
+
+
+def traffic():
+    """The traffic of this process with servers."""
+    return _answer(_library.pointfrontTraffic())
 
 
 class StoredCloud:

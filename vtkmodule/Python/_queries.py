@@ -81,7 +81,7 @@ def _encoded(text):
     return None if text is None else text.encode(errors="surrogateescape")
 
 
-def _finite(number):
+def finite(number):
     """The largest number in place of an infinite one."""
     return max(-sys.float_info.max, min(sys.float_info.max, number))
 
@@ -120,9 +120,9 @@ class Conditions:
 
     def options(self):
         """Those of `pointfront export`, which takes finite numbers only."""
-        return {"box": None if self.box is None else [_finite(end) for end in self.box],
+        return {"box": None if self.box is None else [finite(end) for end in self.box],
                 "sphere": self.sphere, "classes": self.classes or None, "where": self.where,
-                "spacing": None if self.spacing is None else _finite(self.spacing)}
+                "spacing": None if self.spacing is None else finite(self.spacing)}
 
     def arrays(self, store, progress=None, *, line_distance=0.0, maximum_number_of_points=_MOST,
                memory_limit=0, colors_as_stored=True, piece=0, pieces=1):

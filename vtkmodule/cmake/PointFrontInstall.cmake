@@ -81,8 +81,9 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   foreach (file IN LISTS package_files)
     configure_file("${from}/${file}.in" "${to}/${file}" @ONLY)
   endforeach ()
-  foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _arrays.py _calls.py _classes.py
-      _clouds.py _cluster.py _controls.py _doors.py _errors.py _extracts.py _far.py _gate.py
+  foreach (file IN ITEMS __init__.py __init__.pyi __main__.py _arrays.py _bucket.py _calls.py
+      _classes.py _clouds.py _cluster.py _controls.py _doors.py _errors.py _extracts.py _far.py
+      _gate.py
       _kernel.py _lines.py _meshes.py _orbit.py _page.py _pictures.py _plotting.py _progress.py
       _queries.py _remote.py _serve.py _stream.py _window.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
@@ -107,6 +108,18 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
         COMMAND "${CMAKE_COMMAND}" -E env
           "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
           "${Python3_EXECUTABLE}" -B "${from}/Testing/test_cluster.py")
+    endif ()
+    execute_process(COMMAND "${Python3_EXECUTABLE}" -c "import boto3, distributed"
+      RESULT_VARIABLE no_boto3 OUTPUT_QUIET ERROR_QUIET)
+    if (no_boto3 OR NOT POINTFRONT_NORMALS OR NOT POINTFRONT_REMOTE)
+      pointfront_leave_out("Python.Bucket")
+      message(STATUS "Python.Bucket is left out: it needs Python packages boto3 and distributed "
+        "(Debian: python3-boto3, python3-distributed), POINTFRONT_NORMALS and POINTFRONT_REMOTE")
+    else ()
+      add_test(NAME Python.Bucket
+        COMMAND "${CMAKE_COMMAND}" -E env
+          "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
+          "${Python3_EXECUTABLE}" -B "${from}/Testing/test_bucket.py")
     endif ()
     foreach (name IN LISTS python_tests)
       string(TOLOWER "${name}" test)

@@ -82,12 +82,28 @@ if (POINTFRONT_BUILD_FUZZERS)
   add_compile_options(-fsanitize=fuzzer-no-link) # coverage of the libraries leads the fuzzer
   add_compile_definitions(FUZZING_BUILD_MODE_UNSAFE_FOR_PRODUCTION) # checksums always match
 endif ()
+set(pointfront_sanitizing "")
 if (POINTFRONT_SANITIZE)
-  add_compile_options(-fsanitize=${POINTFRONT_SANITIZE}
-    -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  set(pointfront_sanitizing
+    -fsanitize=${POINTFRONT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  if (CMAKE_BUILD_TYPE STREQUAL "Release")
+    list(APPEND pointfront_sanitizing -Og -g1 -UNDEBUG)
+  endif ()
+  if (POINTFRONT_SANITIZE MATCHES "undefined" AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    # An illegal instruction where behaviour is undefined, instead of a report and its data: half
+    # the code, and a tool that starts without two million relocations. ASAN_OPTIONS=handle_sigill=1
+    # prints the place.
+    list(APPEND pointfront_sanitizing -fsanitize-undefined-trap-on-error)
+  endif ()
+  add_compile_options(${pointfront_sanitizing})
   # The sanitizers call dlopen() in the program's place, and RUNPATH counts for the caller's own
   # calls only. RPATH counts for every call, so the libraries that the tool opens are found.
   add_link_options(-fsanitize=${POINTFRONT_SANITIZE} -Wl,--disable-new-dtags)
+  if (POINTFRONT_SANITIZE MATCHES "address")
+    # A library calls its own form of an inline function, not that of a program of tests, which is
+    # compiled without checks (pointfront_test_program).
+    add_link_options(-Wl,-Bsymbolic-functions)
+  endif ()
 endif ()
 
 # For libraries whose inner loops call their own functions: nobody replaces these at run time, so

@@ -4,15 +4,16 @@
 set(pointfront_public_core
   Base/Bounds.h Base/Error.h Base/Progress.h Base/Result.h
   Build/StoreBuilder.h
+  Disk/FarSettings.h
   Export/OutputTarget.h Export/SourceExport.h Export/StoreExport.h
   Front/View.h
   Plan/FramePlan.h Plan/PlanParts.h
   Points/AttributePass.h Points/AttributeSchema.h Points/NormalAttribute.h Points/ObjectClass.h
   Points/PassChoice.h Points/PointBatch.h Points/PointFileOpener.h Points/PointSink.h
   Points/PointSource.h Points/QuantisationGrid.h Points/ScalarType.h Points/SplatRadius.h
-  Query/BoxRegion.h Query/ConvexRegion.h Query/LineCorridor.h Query/PlanarGeometry.h
-  Query/PointQuery.h Query/PointsById.h Query/PolygonPrism.h Query/QueryPlan.h Query/Region.h
-  Query/SphereRegion.h Query/StoredPoints.h Query/WellKnownText.h
+  Query/BoxRegion.h Query/ConvexRegion.h Query/InputBox.h Query/LineCorridor.h
+  Query/PlanarGeometry.h Query/PointQuery.h Query/PointsById.h Query/PolygonPrism.h
+  Query/QueryPlan.h Query/Region.h Query/SphereRegion.h Query/StoredPoints.h Query/WellKnownText.h
   Reference/CoordinateSystems.h Reference/GeoKeys.h
   Statistics/PointStatistics.h
   Store/PointStore.h Store/StoreVerification.h Store/StoredCloud.h Tiles/StoredCloudFormats.h

@@ -65,7 +65,8 @@ endfunction ()
 
 # pointfront_discover_tests(<executable> TEST_PREFIX <prefix> [READS_DATA <suite>.<test>...]
 #   [WITHOUT_THREADS <suite>.<test>...] [SAME_THREADS <suite>.<test>...]
-#   [MEASURES <suite>.<test>...] <as gtest_discover_tests>...)
+#   [MEASURES <suite>.<test>...] [WITHOUT_SANITIZERS <suite>.<test>...]
+#   <as gtest_discover_tests>...)
 # READS_DATA: those that read the public clouds, or patterns of such. A TEST_FILTER may only begin
 # with "-".
 # WITHOUT_THREADS: those of what runs in one thread and takes seconds under ThreadSanitizer, which
@@ -74,10 +75,11 @@ endfunction ()
 # under ThreadSanitizer, too.
 # MEASURES: those that measure times, counts or many pictures of code that other tests run, too. A
 # sanitizer sees nothing else in them, and they take it a minute each: they are left out there.
+# WITHOUT_SANITIZERS: those of what a sanitizer does itself, or forbids.
 function (pointfront_discover_tests executable)
   cmake_parse_arguments(PARSE_ARGV 1
     test "" "TEST_PREFIX;TEST_FILTER;DISCOVERY_TIMEOUT"
-    "READS_DATA;WITHOUT_THREADS;SAME_THREADS;MEASURES")
+    "READS_DATA;WITHOUT_THREADS;SAME_THREADS;MEASURES;WITHOUT_SANITIZERS")
   string(REGEX REPLACE "^-" "" left_out "${test_TEST_FILTER}")
   if (test_READS_DATA AND NOT pointfront_has_shared_data)
     list(APPEND left_out ${test_READS_DATA})
@@ -90,7 +92,7 @@ function (pointfront_discover_tests executable)
     list(APPEND left_out ${test_WITHOUT_THREADS} ${test_SAME_THREADS})
   endif ()
   if (POINTFRONT_SANITIZE)
-    list(APPEND left_out ${test_MEASURES})
+    list(APPEND left_out ${test_MEASURES} ${test_WITHOUT_SANITIZERS})
   endif ()
   list(JOIN left_out ":" left_out)
   if (POINTFRONT_SANITIZE)
@@ -149,8 +151,16 @@ endfunction ()
 # pointfront_test_program(<executable>)
 # How programs of tests are compiled: by folder, and without the costly optimisations, since nobody
 # waits for a test's own code. -O1 compiles in two thirds of the time of -O3.
+# AddressSanitizer and UB Sanitizer check the libraries, not the tests, which are compiled as those
+# of the preset `release` are: ccache then compiles them once for both. (ThreadSanitizer has to see
+# every access.)
 function (pointfront_test_program executable)
   pointfront_compile_by_folder(${executable} TESTS)
+  if (POINTFRONT_SANITIZE MATCHES "address")
+    get_target_property(options ${executable} COMPILE_OPTIONS)
+    list(REMOVE_ITEM options ${pointfront_sanitizing})
+    set_property(TARGET ${executable} PROPERTY COMPILE_OPTIONS "${options}")
+  endif ()
   target_compile_options(${executable} PRIVATE
     $<$<AND:$<CXX_COMPILER_ID:GNU,Clang,AppleClang>,$<CONFIG:Release>>:-O1>)
 endfunction ()

@@ -1,4 +1,5 @@
 #include "Address.h"
+#include "RemoteOpener.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
 
@@ -53,6 +54,34 @@ TEST(Address, OtherSecretsAreOtherClouds)
   EXPECT_NE(remembered("https://host/a?v=1"), remembered("https://host/a?v=2"));
   EXPECT_NE(remembered("https://me:one@host/a"), remembered("https://me:other@host/a"));
   EXPECT_EQ(remembered("https://host/a"), "https://host/a");
+}
+
+TEST(Address, SettingsTravelWithTheName)
+{
+  addRemoteOpeners();
+  const std::string plain = "https://host/a/list.vpc";
+  const std::string form = remembered(plain + "#far:offline=1&timeout=5");
+  EXPECT_EQ(form.find("offline"), std::string::npos) << form;
+  EXPECT_NE(form, plain);
+  EXPECT_NE(form, remembered(plain + "#far:offline=1"));
+  EXPECT_EQ(addressOf(form), plain + "#far:offline=1&timeout=5");
+  EXPECT_EQ(Address::parse(addressOf(form))->text(), plain);
+  EXPECT_EQ(placeOf(addressOf(form)), plain);
+  // They are those of what it names, wherever that lies.
+  EXPECT_EQ(addressOf(beside(form, "b.laz")), "https://host/a/b.laz#far:offline=1&timeout=5");
+  EXPECT_EQ(addressOf(beside(form, "https://other/b.laz?sig=1")),
+    "https://other/b.laz?sig=1#far:offline=1&timeout=5");
+  EXPECT_EQ(addressOf(beside(form, "https://other/b.laz#far:offline=0")),
+    "https://other/b.laz#far:offline=0");
+  EXPECT_EQ(beside(plain, "https://other/b.laz"), "https://other/b.laz");
+}
+
+/// An epoch is a part of a collection's name; it was lost, and all tiles were taken.
+TEST(Address, ThePublicFormKeepsAnEpoch)
+{
+  addRemoteOpeners();
+  EXPECT_EQ(
+    publicForm("https://host/a.pfcollection#epoch=2024"), "https://host/a.pfcollection#epoch=2024");
 }
 
 TEST(Address, APlaceIsTheSameWhoeverSignsForIt)

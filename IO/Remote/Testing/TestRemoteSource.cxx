@@ -3,6 +3,7 @@
 #include "SmallServer.h"
 
 #include "pointfront/Disk/ByteSource.h"
+#include "pointfront/Disk/ByteTraffic.h"
 #include "pointfront/Disk/StopOfReads.h"
 
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <functional>
 #include <memory>
 #include <string>
@@ -54,34 +56,59 @@ TEST(RemoteSource, AStopEndsTheTransfers)
   addRemoteOpeners();
   const Result<std::shared_ptr<const ByteSource>> source = openBytes(server.address(), { 4096, 0 });
   ASSERT_TRUE(source) << source.error().what;
-  server.silent = true;
-  const unsigned before = server.requests;
-  ReadStop stop{ false };
   std::vector<std::byte> bytes(40960);
   std::vector<ByteRange> ranges;
   for (std::size_t i = 0; i < 4; ++i)
   {
     ranges.push_back({ 200000 * (i + 1), 10240, bytes.data() + 10240 * i });
   }
-  Result<void> done;
-  Clock::time_point ended;
-  std::thread reader(
-    [&]
-    {
-      done = (*source)->readUntil(stop, ranges.data(), ranges.size());
-      ended = Clock::now();
-    });
-  EXPECT_TRUE(comes([&] { return server.requests == before + 4; }));
-  const Clock::time_point asked = Clock::now();
-  stop = true;
-  reader.join();
-  ASSERT_FALSE(done);
-  EXPECT_EQ(done.error().kind, Error::Kind::Cancelled) << done.error().what;
-  // A tenth of a second, and what a busy machine takes besides; it took ten seconds before.
-  EXPECT_LT(ended - asked, milliseconds(500));
-  EXPECT_TRUE(comes([&] { return server.left >= 4; })); // none goes on unseen
-  server.silent = false;
+  milliseconds best{ 10000 };
+  for (unsigned round = 1; round <= 5 && best > milliseconds(100); ++round) // it may be busy
+  {
+    server.silent = true;
+    const unsigned before = server.requests;
+    ReadStop stop{ false };
+    Result<void> done;
+    Clock::time_point ended;
+    std::thread reader(
+      [&]
+      {
+        done = (*source)->readUntil(stop, ranges.data(), ranges.size());
+        ended = Clock::now();
+      });
+    EXPECT_TRUE(comes([&] { return server.requests == before + 4; }));
+    const Clock::time_point asked = Clock::now();
+    stop = true;
+    reader.join();
+    ASSERT_FALSE(done);
+    EXPECT_EQ(done.error().kind, Error::Kind::Cancelled) << done.error().what;
+    best = std::min(best, std::chrono::duration_cast<milliseconds>(ended - asked));
+    EXPECT_TRUE(comes([&] { return server.left >= 4 * round; })); // none goes on unseen
+    server.silent = false;
+  }
+  EXPECT_LE(best, milliseconds(100)); // ten seconds before
   EXPECT_TRUE((*source)->read(ranges.data(), ranges.size()));
+}
+
+TEST(RemoteSource, EndsThatAreHeldAreNotAskedForAgain)
+{
+  const std::string file = words(100000);
+  SmallServer server(file);
+  const RemoteOpener opener(RemoteOptions{});
+  const auto source = opener.open(server.address(), { 8192, 10000 });
+  ASSERT_TRUE(source) << source.error().what;
+  const auto read = [&](std::size_t offset, std::size_t size)
+  {
+    const std::uint64_t before = ByteTraffic::ofProcess().bytes;
+    const Result<RawBytes> bytes = (*source)->readAt(offset, size);
+    EXPECT_TRUE(bytes && std::memcmp(bytes->data.get(), file.data() + offset, size) == 0) << offset;
+    return ByteTraffic::ofProcess().bytes - before;
+  };
+  EXPECT_EQ(read(100, 8000), 0u);
+  EXPECT_EQ(read(90500, 9500), 0u);
+  EXPECT_EQ(read(100, 20000), 20100u - 8192u);
+  EXPECT_LE(read(50000, 50000), 40000u + 4096u);
+  EXPECT_LE(read(0, 100000), 100000u - 8192u - 10000u + 4096u); // 100000 before
 }
 
 TEST(RemoteOpener, AStopEndsAnOpening)
@@ -217,9 +244,6 @@ TEST(RemoteSource, AFileThatWasReplacedIsOpenedAnew)
   EXPECT_TRUE((*again)->readAt(500000, &byte, 1));
 }
 
-// ThreadSanitizer ends a child of fork() that starts threads. The allocator of AddressSanitizer has
-// locks that fork() does not know (GCC 12): a child that starts threads may wait for one for ever.
-#if !defined(__SANITIZE_THREAD__) && !defined(__SANITIZE_ADDRESS__)
 namespace
 {
 /// Forks; whether the child says true within 20 seconds. Then it may wait for a lock of a thread
@@ -330,7 +354,6 @@ TEST(RemoteOpener, AChildOfForkOpensAddressesToo)
     ASSERT_TRUE(childSays([&] { return bool(opener.open(server.address("child"), { 4096, 0 })); }));
   }
 }
-#endif
 
 TEST(ReadPatience, LastsWhileBytesCome)
 {

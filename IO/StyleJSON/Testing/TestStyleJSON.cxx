@@ -34,7 +34,8 @@ TEST(StyleJSON, EveryKeyIsUnderstood)
     "default": { "technique": "splats", "color": "rgb", "size": {"mode": "spacing", "factor": 1.5},
                  "orientation": "view", "opacity": 0.5, "visible": true, "error_factor": 2,
                  "budget_share": 0.25,
-                 "blended": true, "accuracy": "exact", "where": "intensity > 3" },
+                 "blended": true, "accuracy": "exact", "where": "intensity > 3",
+                 "epoch": "2024-07" },
     "classes": { "5": { "technique": "spheres",
                         "color": {"attribute": "local-height", "map": "viridis", "range": [0, 20]},
                         "size": {"mode": "fixed", "metres": 0.25}, "orientation": [0, 0, 2] },
@@ -54,6 +55,7 @@ TEST(StyleJSON, EveryKeyIsUnderstood)
   EXPECT_EQ(sheet.standard.blended, true);
   EXPECT_EQ(sheet.standard.accuracy, SplatAccuracy::Exact);
   EXPECT_EQ(sheet.standard.where->text, "intensity > 3");
+  EXPECT_EQ(sheet.standard.epoch, "2024-07");
   ASSERT_EQ(sheet.classes.size(), 2u);
   const LayerStyle& five = sheet.classes.at(5);
   EXPECT_EQ(five.colour->map.kind, ColourMapChoice::Kind::Viridis);
@@ -172,7 +174,7 @@ TEST(StyleJSON, RefusalsBeginWithTheirPlace)
   expectRefusal(R"({"classes": {"6": {"colour": "rgb"}}})",
     "classes.6.colour: there is no such key; use technique, color, size, orientation, opacity, "
     "visible, error_factor, budget_share, blended, accuracy, rim_color, wall_color, where, "
-    "light, edl; did you mean 'color'?");
+    "epoch, light, edl; did you mean 'color'?");
   expectRefusal(R"({"classes": {"256": {}}})", "classes.256: a class is a code from 0 to 255");
   expectRefusal(R"({"classes": {"06": {}}})", "classes.06: a class is a code from 0 to 255");
   expectRefusal(

@@ -123,7 +123,8 @@ std::int64_t SplatGroups::list(const FramePlan& plan, const GpuPool& pool, float
     blended_ = blended_ || one.group.first->passes.blended;
     const std::uint32_t first = one.group.first->item->first;
     const std::uint32_t from = goesOn_ ? std::max(first, one.drawnUpTo) : first;
-    const std::uint32_t end = one.end;
+    // Covered points are never seen: they would hide what stands in beside them.
+    const std::uint32_t end = one.group.first->item->covered ? std::min(one.end, from) : one.end;
     one.end = growsApart ? std::max(from, fullPoints(*one.group.first, end)) : end;
     if (first < one.end)
     {

@@ -52,7 +52,8 @@ SplatPart::~SplatPart() = default;
 std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits)
 {
-  if (plan.batches.empty() && plan.keepsVisible && target_ == target)
+  const bool nothing = plan.batches.empty() && plan.standIns.empty();
+  if (nothing && plan.keepsVisible && target_ == target)
   {
     seen_ = shown_ = {}; // other clouds have the whole budget for a frame: the next one goes on
     return 0;
@@ -65,8 +66,9 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   seen_ = placeOf(plan, demand.fills, demand.standIns);
   shown_ = limits ? within : seen_;
   selects_ = frame.ids;
-  if (!limits && (points == 0 || shown_.empty()))
+  if (!limits && ((points == 0 && !demand.standIns) || shown_.empty()))
   {
+    seen_ = shown_ = {};
     forget();
     return points;
   }

@@ -75,7 +75,7 @@ std::int64_t SplatPicture::draw(vtkOpenGLRenderWindow* window, vtkRenderer* rend
   further_.clear();
   composition_.release(window); // a plan of one part does not need it
   const std::int64_t points = main_.draw(frame, plan, mainTarget(frame, plan), nullptr);
-  shown_ = points > 0 ? main_.shown() : PixelRectangle();
+  shown_ = points == noTarget ? PixelRectangle() : main_.shown();
   picture_ = shown_.empty() ? SplatTextures() : main_.picture();
   // Each point once, though several styles of a layer may draw it.
   return std::min(points, static_cast<std::int64_t>(plan.pointCount()));

@@ -8,6 +8,7 @@
 #include "pointfront/Plan/FramePlanner.h"
 #include "pointfront/Residency/ResidencyShare.h"
 #include "pointfront/Store/PointStore.h"
+#include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Views/ViewFront.h"
 
@@ -27,7 +28,7 @@ namespace pointfront::test
 
 /// A store on a disk that takes a millisecond for each node and gives no more than those granted:
 /// frames see it load, however long they take.
-class SlowStore final : public NodeReader
+class SlowStore final : public StoredCloud
 {
 public:
   static constexpr int allNodes = 1 << 30;
@@ -52,6 +53,9 @@ public:
       granted_ += nodes;
     }
   }
+  /// No node more, until further ones are granted.
+  void hold() { granted_ = 0; }
+  bool isUsedUp() const { return granted_ <= 0; } ///< all that was granted has been asked for
   Result<NodeColumns> decode(const FetchedNode& fetched) const override
   {
     return store_->decode(fetched);
@@ -66,10 +70,15 @@ public:
     return store_->storedBytes(node, columns);
   }
   MissingRows* missingRows() const override { return store_->missingRows(); }
+  const StoreDescription& description() const override { return store_->description(); }
+  const std::shared_ptr<const Hierarchy>& hierarchy() const override { return store_->hierarchy(); }
+  Result<VerifyReport> verify(const ProgressFunction& progress) const override
+  {
+    return store_->verify(progress);
+  }
 
 private:
   std::shared_ptr<const PointStore> store_;
-  std::shared_ptr<SlowStore> disk_;
   mutable std::atomic<int> granted_{ 0 };
 };
 
@@ -87,7 +96,7 @@ class SlowView
 public:
   static constexpr int width = 480;
   static constexpr int height = 320;
-  static constexpr int nodesAFrame = 8;
+  static constexpr int usualNodesAFrame = 8;
 
   SlowView(const std::shared_ptr<const PointStore>& store, const StyleSheet& sheet)
     : store_(store)
@@ -168,6 +177,7 @@ public:
     }
   }
 
+  int nodesAFrame = usualNodesAFrame; ///< that its disk gives at most
   bool refines = true; ///< as PlanRequest's
   bool composited = false; ///< likewise: it is one of several clouds
   double growthStep = 0.0; ///< seconds from a frame to the next; 0: nothing grows

@@ -227,6 +227,30 @@ TEST_P(RefiningView, OfATreeOfMeansDrawsNothingTwice)
   }
 }
 
+/// A tree of means whose nodes are small has a root of a few dozen points, each for a thousand.
+TEST(RefiningMeans, ARootOfAFewPointsClosesTheSurface)
+{
+  BuildOptions options = nodesOf(400);
+  options.refinement = Refinement::Replace;
+  const std::string path = builtStore(
+    "few-means-" + std::to_string(getpid()), std::make_unique<TerrainSource>(40000, 11), options);
+  const std::shared_ptr<const PointStore> store = openedStore(path);
+  ASSERT_TRUE(store);
+  const StyleSheet sheet = refiningSheet(refiningStyles[3]);
+  SlowView complete(store, sheet);
+  complete.frame(true);
+  SlowView view(store, sheet);
+  view.nodesAFrame = 1;
+  const RasterStatistics first = view.frame();
+  EXPECT_EQ(first.points, 0u);
+  EXPECT_GT(first.standIns, 0u);
+  EXPECT_LT(first.standIns, 64u);
+  SeenFrames seen;
+  seen.depths.push_back(view.target.depth);
+  EXPECT_GE(seen.leastCovered(complete.target), 0.7)
+    << "none is larger than an eighth of the height";
+}
+
 /// As windows show it: what arrives grows (SMOOTH-6). What grows is drawn each time; what has grown
 /// is not.
 TEST_P(RefiningView, DrawsWhatGrowsAndNothingElse)

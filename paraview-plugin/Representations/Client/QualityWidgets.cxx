@@ -2,7 +2,7 @@
 
 #include "PointLook.h"
 
-#include "pointfront/Style/QualityPreset.h"
+#include "pointfront/Quality/QualityChoice.h"
 #include "pointfront/Style/TechniqueNames.h"
 
 #include "vtkSMProperty.h"
@@ -15,27 +15,34 @@ namespace pointfront
 void agreeOnQuality(vtkSMProxy* representation, const std::string& changed)
 {
   vtkSMPropertyHelper quality(representation, "Quality");
-  const QualityPreset* const preset = qualityPresetOf(quality.GetAsString());
-  if (!preset)
+  vtkSMPropertyHelper chosen(representation, "QualityChosen");
+  const auto choice = chooseQuality(quality.GetAsString());
+  if (changed == "Quality")
   {
-    return;
+    chosen.Set(choice ? choice->sentence.c_str() : "");
   }
+  if (!choice)
+  {
+    return; // custom, or what is an error of the next frame
+  }
+  const QualityPreset& preset = choice->preset;
   vtkSMPropertyHelper technique(representation, "Technique");
   vtkSMPropertyHelper error(representation, "TargetError");
   vtkSMPropertyHelper closing(representation, "ClosingSize");
-  const bool blended = preset->technique == Technique::Splats && preset->blended;
-  const std::string name = blended ? "blended" : traitsOf(preset->technique).name;
+  const bool blended = preset.technique == Technique::Splats && preset.blended;
+  const std::string name = blended ? "blended" : traitsOf(preset.technique).name;
   if (changed == "Quality")
   {
     technique.Set(name.c_str());
-    error.Set(preset->errorPx);
+    error.Set(preset.errorPx);
     closing.Set(PointLook::BY_TECHNIQUE);
   }
   else if ((changed == "Technique" && technique.GetAsString() != name) ||
-    (changed == "TargetError" && error.GetAsDouble() != preset->errorPx) ||
+    (changed == "TargetError" && error.GetAsDouble() != preset.errorPx) ||
     (changed == "ClosingSize" && closing.GetAsInt() == PointLook::NEVER))
   {
     quality.Set("custom");
+    chosen.Set("");
   }
 }
 

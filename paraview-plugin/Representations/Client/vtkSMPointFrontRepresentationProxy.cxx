@@ -289,6 +289,7 @@ void vtkSMPointFrontRepresentationProxy::TellFrame(vtkPVPointFrontFrame* frame)
   vtkSMPropertyHelper(this, "NodesDrawn").Set(frame->GetNodesDrawn());
   vtkSMPropertyHelper(this, "ProjectedSpacing").Set(frame->GetProjectedSpacing());
   vtkSMPropertyHelper(this, "LimitedBy").Set(frame->GetLimitedBy().c_str());
+  vtkSMPropertyHelper(this, "Traffic").Set(frame->GetTraffic().c_str());
   vtkSMPropertyHelper(this, "ExpectedDifference").Set(frame->GetExpectedDifference().c_str());
   vtkSMPropertyHelper(this, "HostMemoryBudget").Set(frame->GetHostMemoryBudget());
   vtkSMPropertyHelper(this, "FrameComplete").Set(frame->GetComplete() ? 1 : 0);

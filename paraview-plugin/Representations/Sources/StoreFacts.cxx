@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdio>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -96,6 +97,30 @@ std::string groupedDigits(std::uint64_t number)
     digits.insert(at, ",");
   }
   return digits;
+}
+
+namespace
+{
+std::string megabytes(std::uint64_t bytes)
+{
+  char text[40];
+  std::snprintf(text, sizeof text, bytes < 9950000 ? "%.2f MB" : "%.0f MB", 1e-6 * double(bytes));
+  return text;
+}
+} // namespace
+
+std::string trafficText(const TrafficCounts& traffic, std::uint64_t missing)
+{
+  if (!traffic.any())
+  {
+    return {};
+  }
+  std::string text = groupedDigits(traffic.requests) + " requests, " + megabytes(traffic.bytes);
+  if (traffic.cacheHits > 0)
+  {
+    text += "; " + megabytes(traffic.cacheBytes) + " from the cache";
+  }
+  return missing > 0 ? text + "; " + groupedDigits(missing) + " nodes are missing" : text;
 }
 
 std::string storeFacts(const StoredCloud& store, std::int64_t mostOverviewPoints)

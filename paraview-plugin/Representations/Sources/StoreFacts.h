@@ -1,5 +1,7 @@
 #pragma once
 
+#include "pointfront/Disk/ByteTraffic.h"
+
 #include "vtkType.h"
 
 #include <cstdint>
@@ -14,6 +16,11 @@ class StoredCloud;
 
 /// A number for people: 10,653,336.
 std::string groupedDigits(std::uint64_t number);
+
+/// The traffic with servers so far, for people: "34 requests, 1.2 MB; 0.3 MB from the cache". Empty
+/// if neither a server nor the cache was asked. `missing`: nodes of a picture that could not be
+/// had.
+std::string trafficText(const TrafficCounts& traffic, std::uint64_t missing);
 
 /// Describes the store, in lines for a panel: points, bounds, coordinate reference system,
 /// structure, classes with their points (of a store with a tree for each class), attributes'

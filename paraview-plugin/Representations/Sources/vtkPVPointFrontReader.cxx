@@ -48,6 +48,13 @@ const char* vtkPVPointFrontReader::GetStoreFacts()
 }
 
 //------------------------------------------------------------------------------
+const char* vtkPVPointFrontReader::GetTraffic()
+{
+  this->Traffic = pointfront::trafficText(pointfront::ByteTraffic::ofProcess().counts(), 0);
+  return this->Traffic.c_str();
+}
+
+//------------------------------------------------------------------------------
 void vtkPVPointFrontReader::CloseStore()
 {
   this->Store = nullptr;

@@ -26,6 +26,10 @@ public:
   /// Describes the store, in lines for a panel; empty without a store.
   const char* GetStoreFacts();
 
+  /// The traffic of this process with servers so far, all its clouds together: "34 requests, 1.2
+  /// MB; 0.3 MB from the cache". Empty: nothing.
+  const char* GetTraffic();
+
   /// Closes the file; the next update opens it again. Others that draw or read it keep it open.
   virtual void CloseStore();
 
@@ -41,6 +45,7 @@ private:
   void operator=(const vtkPVPointFrontReader&) = delete;
 
   std::string StoreFacts;
+  std::string Traffic;
 };
 
 #endif

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <array>
 #include <string>
 
 namespace pointfront
@@ -120,6 +121,11 @@ BuildOrder buildOrderOf(const char* text)
   std::sort(order.files.begin(), order.files.end());
   order.options = optionsOf(request);
   order.passes = passesOf(request);
+  if (request.contains("box"))
+  {
+    const auto box = request.at("box").get<std::array<double, 6>>();
+    order.box = Bounds{ { box[0], box[1], box[2] }, { box[3], box[4], box[5] } };
+  }
   order.preview.wanted = valueOf(request, "preview", order.preview.wanted);
   order.preview.leastPoints = valueOf(request, "preview_points", order.preview.leastPoints);
   return order;

@@ -7,6 +7,7 @@
 #include "PlainColumns.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/ByteTraffic.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Query/BoxRegion.h"
@@ -231,8 +232,9 @@ Json reportOf(const pointfront::BuildReport& report)
     skipped.push_back(fault.path + " is skipped: " + fault.why);
   }
   return { { "points_read", report.pointsRead }, { "points_stored", report.pointsStored },
-    { "nodes", report.nodes }, { "bytes_written", report.bytesWritten },
-    { "warnings", report.warnings }, { "skipped", skipped } };
+    { "points_outside", report.pointsOutside }, { "nodes", report.nodes },
+    { "bytes_written", report.bytesWritten }, { "warnings", report.warnings },
+    { "skipped", skipped } };
 }
 
 } // namespace
@@ -273,6 +275,18 @@ char* pointfrontPublicForm(const char* address)
     {
       pointfront::addCloudFormats();
       return Json(pointfront::publicForm(address));
+    });
+}
+
+char* pointfrontTraffic()
+{
+  return answer(
+    []() -> Result<Json>
+    {
+      const pointfront::TrafficCounts traffic = pointfront::ByteTraffic::ofProcess().counts();
+      return Json{ { "requests", traffic.requests }, { "bytes_fetched", traffic.bytes },
+        { "retries", traffic.retries }, { "cache_hits", traffic.cacheHits },
+        { "cache_bytes", traffic.cacheBytes } };
     });
 }
 

@@ -56,6 +56,10 @@ extern "C"
   /// (docs/user/remote.md). Answers null of JSON.
   char* pointfrontCredentials(const char* text);
 
+  /// Answers what this process has had from servers so far: "requests", "bytes_fetched", "retries",
+  /// "cache_hits", "cache_bytes".
+  char* pointfrontTraffic();
+
   /// `cloud` gets the opened cloud, or null; `bounds` its lowest and highest corner. Answers
   /// "path", "points", "attributes", "computed" (those of them that are made while points are
   /// read), "classes" (pairs of number and name) and "deep" (whether "rgb" has values above 255).

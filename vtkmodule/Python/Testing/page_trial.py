@@ -49,6 +49,14 @@ class Server:
         return [int(word) for thread in threads
                 for word in (thread / "children").read_text().split()]
 
+    def processor_seconds(self):
+        """That this server and its tools have used so far, in all threads."""
+        used = 0.0
+        for pid in (self.process.pid, *self.tools()):
+            for thread in pathlib.Path(f"/proc/{pid}/task").iterdir():
+                used += int((thread / "schedstat").read_text().split()[0]) / 1e9
+        return used
+
     def end(self, with_signal=signal.SIGINT):
         self.process.send_signal(with_signal)
         status = self.process.wait(LIMIT_MS / 1000)
@@ -79,6 +87,10 @@ class InBrowser(unittest.TestCase):
         page = self.browser.new_page(viewport={"width": width, "height": height})
         self.addCleanup(page.close)
         self.errors = []
+        self.messages = []  # between the page and its server
+        page.on("websocket", lambda line: [
+            line.on(way, lambda message, to=self.messages: to.append(message))
+            for way in ("framesent", "framereceived")])
         page.on("console", lambda said: said.type == "error" and self.errors.append(said.text))
         page.on("pageerror", lambda error: self.errors.append(str(error)))
         page.goto(url)

@@ -20,6 +20,7 @@ from pointfront import _cluster
 from pointfront._host import TOOL
 
 OPTIONS = ("--tile", "40", "--normals", "pca", "--height-above-ground", "--progress", "none")
+HERE = "127.0.0.1"
 COMMAND = (sys.executable, "-B", "-m", "pointfront", "cluster", "build")
 
 
@@ -112,6 +113,71 @@ class Cluster(unittest.TestCase):
         self.assertEqual(tree(self.land), self.expected)
         said = self.build("--scheduler", address, status=1).stderr
         self.assertIn("pointfront cluster build: ", said)
+
+    def scheduler(self, port=0):
+        """A scheduler and two workers, each a process of its own, as a cluster has them: the three
+        processes and the scheduler's address."""
+        place = self.root / f"scheduler-{time.monotonic_ns()}.json"
+        run = (sys.executable, "-B", "-m")
+        processes = [subprocess.Popen(
+            [*run, "distributed.cli.dask_scheduler", "--host", HERE, "--port", str(port),
+             "--no-dashboard", "--no-show", "--scheduler-file", str(place)],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)]
+        self.addCleanup(self.end, processes)
+        end = time.monotonic() + 60
+        while not place.exists():
+            self.assertIsNone(processes[0].poll())
+            self.assertLess(time.monotonic(), end)
+            time.sleep(0.05)
+        address = json.loads(place.read_text())["address"]
+        for _ in range(2):
+            processes.append(subprocess.Popen(
+                [*run, "distributed.cli.dask_worker", address, "--host", HERE, "--no-dashboard",
+                 "--nthreads", "1", "--memory-limit", "0", "--death-timeout", "60",
+                 "--local-directory", str(self.root)],
+                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        return processes, address
+
+    @staticmethod
+    def end(processes):
+        for process in processes:
+            with contextlib.suppress(psutil.Error):
+                for child in psutil.Process(process.pid).children(recursive=True):
+                    with contextlib.suppress(psutil.Error):
+                        child.kill()
+            process.kill()
+            process.wait()
+
+    def done(self):
+        """The tiles that are done, by what they are: nobody writes them again without a trace."""
+        found = {}
+        for record in (self.land / "work").glob("tile-*.json"):
+            store = self.land / "tiles" / json.loads(record.read_text())["file"]
+            for file in (record, store):
+                status = file.stat()
+                found[file.name] = (status.st_ino, status.st_mtime_ns)
+        return found
+
+    def test_a_killed_scheduler_and_the_same_command(self):
+        """On a scheduler that was started again at the same address."""
+        processes, address = self.scheduler()
+        process = self.begun("--scheduler", address, "--threads", "1", tiles=1)
+        processes[0].kill()
+        said = process.communicate(timeout=180)[1]
+        self.assertEqual(process.returncode, 1, said)
+        self.assertEqual(said, f"pointfront cluster build: the scheduler {address} went away. What "
+                         "is done stays: start it and its workers again, and the same command goes "
+                         "on\n")
+        self.end(processes)
+        before = self.done()
+        self.assertGreaterEqual(len(before), 2)
+        self.assertLess(len(before), 2 * self.report["tiles"])
+        _, address = self.scheduler(port=int(address.rpartition(":")[2]))
+        self.build("--scheduler", address, "--threads", "1")
+        self.assertEqual(tree(self.land), self.expected)
+        after = self.done()
+        self.assertEqual(len(after), 2 * self.report["tiles"])
+        self.assertEqual({name: after.get(name) for name in before}, before)
 
     def test_killed_workers_change_nothing(self):
         process = self.begun("--local", "2", tiles=1)

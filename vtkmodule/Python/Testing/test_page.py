@@ -146,6 +146,22 @@ class Page(InBrowser):
         self.assertEqual(server.end(), 130)
         self.assertFalse(pathlib.Path(f"/proc/{tool}").exists(), "the tool is still there")
 
+    def test_a_page_at_rest_sleeps(self):
+        """Neither the server nor the tool does anything, and nothing is sent; for each page."""
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        page = self.open(server.url)
+        self.settle(page, lambda: page.mouse.wheel(0, -300))
+        self.assertGreater(len(self.messages), 5)
+        time.sleep(1.0)  # the browser has taken all
+        frames, messages = self.frames(page), len(self.messages)
+        before = server.processor_seconds()
+        page.wait_for_timeout(4000)  # in which its messages are counted, too
+        self.assertLess(server.processor_seconds() - before, 0.02)
+        self.assertEqual(self.frames(page), frames)
+        self.assertEqual(self.messages[messages:], [])
+        server.end()
+
     def test_a_notebook_has_the_view_in_its_cell(self):
         from pointfront._page import NotebookView
 

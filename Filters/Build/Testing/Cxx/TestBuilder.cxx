@@ -58,6 +58,29 @@ protected:
   std::vector<std::unique_ptr<std::function<void()>>> actions;
 };
 
+TEST_F(Builder, TakesThePointsInABox)
+{
+  ASSERT_EQ(builder->Write(), 1);
+  const vtkIdType all = builder->GetNumberOfPointsStored();
+  const auto whole = pointfront::PointStore::open(builder->GetOutputFileName());
+  ASSERT_TRUE(whole);
+  const pointfront::Bounds bounds = whole.value()->description().bounds;
+  builder->OverwriteOn();
+  builder->UseBoxOn();
+  builder->SetBox(
+    bounds.low.x, bounds.centre().x, bounds.low.y, bounds.high.y, bounds.low.z, bounds.high.z);
+  ASSERT_EQ(builder->Write(), 1);
+  EXPECT_GT(builder->GetNumberOfPointsStored(), all / 10);
+  EXPECT_LT(builder->GetNumberOfPointsStored(), all);
+  EXPECT_EQ(builder->GetNumberOfPointsOutside(), all - builder->GetNumberOfPointsStored());
+  EXPECT_EQ(builder->GetNumberOfPointsRejected(), 0);
+  vtkNew<ErrorObserver> errors;
+  builder->AddObserver(vtkCommand::ErrorEvent, errors);
+  builder->SetBox(1, 0, 0, 1, 0, 1);
+  EXPECT_EQ(builder->Write(), 0);
+  EXPECT_NE(errors->GetErrorMessage().find("is not a box"), std::string::npos);
+}
+
 TEST_F(Builder, WritesAStoreAndTellsHowItGetsOn)
 {
   const std::thread::id here = std::this_thread::get_id();

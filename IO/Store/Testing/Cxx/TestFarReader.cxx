@@ -1,6 +1,7 @@
 #include "ErrorObserver.h"
 
 #include "vtkPointFrontReader.h"
+#include "vtkPointFrontStore.h"
 
 #include <vtkCommand.h>
 #include <vtkNew.h>
@@ -78,5 +79,40 @@ TEST(FarReader, AnAbortEndsTheWaitForASilentServer)
   EXPECT_TRUE(errors->GetError());
   const bool filesOnly = errors->GetErrorMessage().find("does not open") != std::string::npos;
   EXPECT_TRUE(came || filesOnly); // in a build without addresses
+  EXPECT_EQ(vtkPointFrontStore::GetNumberOfFarRequests() > 0, !filesOnly);
+  EXPECT_EQ(vtkPointFrontStore::GetNumberOfFarBytes(), 0); // nothing came
+  EXPECT_EQ(vtkPointFrontStore::GetNumberOfCachedBytes(), 0);
   EXPECT_LT(ended - aborted, std::chrono::seconds(1)); // 60 before
+}
+
+TEST(FarReader, HasSettingsOfItsOwn)
+{
+  const SilentPort silent;
+  vtkNew<vtkPointFrontReader> reader;
+  vtkNew<ErrorObserver> errors;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  const auto error = [&]
+  {
+    errors->Clear();
+    reader->Modified();
+    reader->UpdateInformation();
+    return errors->GetErrorMessage();
+  };
+  reader->SetFileName(silent.address().c_str());
+  reader->SetTimeLimit(0.3);
+  const Clock::time_point begin = Clock::now();
+  const bool filesOnly = error().find("does not open") != std::string::npos;
+  EXPECT_TRUE(errors->GetError());
+  EXPECT_LT(Clock::now() - begin, std::chrono::seconds(20)); // 60 by the environment
+  // A server that is not asked cannot be silent: the cache has nothing, or is none.
+  const std::string folder = testing::TempDir() + "far-reader-cache";
+  reader->SetOffline(1);
+  reader->SetCacheFolder(folder.c_str());
+  EXPECT_EQ(error().find("is not in the cache") == std::string::npos, filesOnly)
+    << errors->GetErrorMessage();
+  reader->SetCacheSize(0);
+  EXPECT_NE(error().find("cache is off"), std::string::npos) << errors->GetErrorMessage();
+  reader->SetCacheSize(-1);
+  reader->SetFileName("a.pfront");
+  EXPECT_NE(error().find("is a path"), std::string::npos) << errors->GetErrorMessage();
 }

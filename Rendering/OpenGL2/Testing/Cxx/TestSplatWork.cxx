@@ -3,6 +3,8 @@
 
 #include "Splats.h"
 
+#include "pointfront/Generate/TerrainSource.h"
+
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
 #include <vtkSelection.h>
@@ -12,6 +14,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -173,6 +176,84 @@ TEST(Techniques, AViewThatLoadsDrawsNothingTwice)
     whole.mapper->SetTargetError(0.5);
     EXPECT_EQ(differing(whole.draw(), last), 0) << json;
   }
+}
+
+/// Children take their parents' places. Its nodes are small and many: frames see them load.
+std::string townOfMeans(const std::string& name)
+{
+  BuildOptions options = nodesOf(100);
+  options.refinement = Refinement::Replace;
+  return builtStore(name, std::make_unique<TerrainSource>(200000, 11), options);
+}
+
+/// Coarse nodes that no complete view draws stand in for finer ones. (Refining.OfATreeOfMeans*
+/// counts what is drawn, in frames that do not depend on the machine.)
+TEST(Techniques, AViewOfATreeOfMeansThatLoadsEndsAsAtOneGo)
+{
+  const std::string store = townOfMeans("loading-means");
+  Splats scene(store);
+  scene.reader->SetOverviewPoints(100); // these would be in memory
+  scene.renderer->ResetCamera();
+  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("splats")));
+  scene.mapper->SetTargetError(0.5);
+  scene.mapper->CompleteOff();
+  scene.mapper->SetGrowthTime(0.0);
+  const Loading view(
+    scene, [&] { return scene.mapper->GetLastPointsDrawn(); },
+    [&] { return scene.mapper->NeedsRender() || scene.mapper->GetLastRequests() > 0; },
+    std::chrono::seconds(20));
+  EXPECT_TRUE(scene.mapper->GetLastComplete());
+  RecordProperty("drawn", std::to_string(view.drawn / static_cast<double>(view.points)));
+  const Picture last = scene.read();
+  Splats whole(store);
+  whole.renderer->ResetCamera();
+  ASSERT_TRUE(whole.style->LoadJSON(techniques.at("splats")));
+  whole.mapper->SetTargetError(0.5);
+  EXPECT_EQ(differing(whole.draw(), last), 0);
+}
+
+/// Pixels of the window in which a selection finds a point.
+int pixelsFound(Scene& scene)
+{
+  vtkNew<vtkHardwareSelector> selector;
+  const auto width = static_cast<unsigned>(scene.window->GetSize()[0]);
+  const auto height = static_cast<unsigned>(scene.window->GetSize()[1]);
+  selector->SetRenderer(scene.renderer);
+  selector->SetArea(0, 0, width - 1, height - 1);
+  selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_POINTS);
+  EXPECT_TRUE(selector->CaptureBuffers());
+  int found = 0;
+  for (unsigned pixel = 0; pixel < width * height; ++pixel)
+  {
+    const unsigned place[2] = { pixel % width, pixel / width };
+    found += selector->GetPixelInformation(place).Valid ? 1 : 0;
+  }
+  return found;
+}
+
+/// Stand-ins are not drawn for a selection, and a tree of means may have nothing else yet.
+TEST(Techniques, InAViewOfATreeOfMeansThatLoadsASelectionFindsPoints)
+{
+  Splats scene(townOfMeans("found-means"));
+  scene.reader->SetOverviewPoints(100); // these would be in memory
+  scene.renderer->ResetCamera();
+  ASSERT_TRUE(scene.style->LoadJSON(techniques.at("splats")));
+  scene.mapper->SetTargetError(0.5);
+  scene.mapper->CompleteOff();
+  scene.mapper->SetGrowthTime(0.0);
+  std::vector<int> found;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+  do
+  {
+    scene.window->Render();
+    found.push_back(pixelsFound(scene));
+  } while ((scene.mapper->NeedsRender() || scene.mapper->GetLastRequests() > 0) &&
+    std::chrono::steady_clock::now() < end);
+  EXPECT_TRUE(scene.mapper->GetLastComplete());
+  EXPECT_GT(found.back(), 1000);
+  EXPECT_GE(*std::min_element(found.begin(), found.end()), 0.25 * found.back());
+  RecordProperty("first_found", std::to_string(double(found.front()) / found.back()));
+  RecordProperty("frames", static_cast<int>(found.size()));
 }
 
 /// Further clouds of a scene's window, in the scene's style: an actor each.

@@ -71,6 +71,8 @@ TEST(Style, ClassesInheritWhatTheyDoNotSay)
   style->SetVisibility(false, 9);
   style->SetFilter("\"my value\" < 5");
   style->SetFilter("z < 50", 6);
+  EXPECT_TRUE(style->SetEpoch("2024-07"));
+  EXPECT_TRUE(style->SetEpoch("2019", 6));
   style->SetSizePixels(3.0, 6);
   EXPECT_EQ(style->GetTechnique(5), "spheres");
   EXPECT_EQ(style->GetTechnique(6), "ewa");
@@ -81,6 +83,9 @@ TEST(Style, ClassesInheritWhatTheyDoNotSay)
   EXPECT_TRUE(style->GetVisibility());
   EXPECT_FALSE(style->GetVisibility(9));
   EXPECT_EQ(style->GetFilter(6), "z < 50");
+  EXPECT_EQ(style->GetEpoch(6), "2019");
+  EXPECT_TRUE(style->ShowAllEpochs(6));
+  EXPECT_EQ(style->GetEpoch(6), "2024-07");
   EXPECT_EQ(style->GetSize(6), R"({"mode":"fixed","px":3.0})");
   style->ResetClass(6);
   EXPECT_EQ(style->GetTechnique(6), "spheres");

@@ -54,6 +54,48 @@ TEST_F(CollectionEpochs, AreCloudsOfTheirOwnInTheNumbersOfAll)
   EXPECT_TRUE(all->verify()->ok);
 }
 
+TEST_F(CollectionEpochs, AreAColumnForWhoNamesIt)
+{
+  created({ dated("a.pfront", 0, 0.0, "2019"), dated("b.pfront", 1000, 16.0, "2024"),
+    dated("c.pfront", 2000, 0.0, "2024") });
+  const auto all = opened();
+  const StoreDescription& told = all->description();
+  const std::uint32_t column = *told.epochColumn;
+  EXPECT_EQ(told.schema[column].name, "epoch");
+  EXPECT_TRUE(told.isComputed(column));
+  EXPECT_EQ(told.epochTimes, (std::vector<double>{ 2019.0, 2024.0 }));
+  EXPECT_EQ(told.ranges.at(column).components[0], (std::array<double, 2>{ 2019.0, 2024.0 }));
+
+  PointQuery asked;
+  for (const auto& [text, firsts] : std::map<std::string, std::set<std::uint32_t>>{
+         { "epoch == 2019", { 0 } }, { "epoch > 2020", { 1000, 2000 } }, { "epoch == 2020", {} } })
+  {
+    asked.where = *FilterExpression::parse(text);
+    const auto found = query(*all, asked);
+    ASSERT_TRUE(found);
+    EXPECT_EQ(*found, expected(firsts)) << text;
+  }
+  // A condition that no point can pass opens no tile.
+  const auto closed = opened();
+  asked.where = *FilterExpression::parse("epoch == 2020");
+  EXPECT_TRUE(query(*closed, asked)->empty());
+  EXPECT_EQ(openTiles(*closed), 0u);
+  asked.where = *FilterExpression::parse("epoch == 2019");
+  EXPECT_TRUE(query(*closed, asked));
+  EXPECT_EQ(openTiles(*closed), 1u);
+
+  const auto one = CollectionCloud::open(at2024());
+  EXPECT_EQ((*one)->description().epochTimes, std::vector<double>{ 2024.0 });
+  EXPECT_TRUE(all->verify()->ok);
+}
+
+TEST_F(CollectionEpochs, MakeNoColumnWhereNobodyNamedOne)
+{
+  created(row(2));
+  EXPECT_FALSE(opened()->description().epochColumn);
+  EXPECT_EQ(opened()->description().schema.find("epoch"), std::nullopt);
+}
+
 TEST_F(CollectionEpochs, KeepTheirTreesThroughEveryChange)
 {
   created({ dated("a.pfront", 0, 0.0, "2019") });

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -10,6 +11,7 @@
 #include <random>
 #include <string>
 #include <sys/wait.h>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -170,6 +172,42 @@ TEST_F(FarCaching, TheLastStateIsKnownOffline)
   cache.note(identity);
   ASSERT_TRUE(cache.last(identity.place));
   EXPECT_EQ(cache.last(identity.place)->text(), identity.text());
+}
+
+TEST_F(FarCaching, ThreadsThatBeginASegmentTogetherLoseNoBlock)
+{
+  constexpr int threads = 4;
+  constexpr std::uint64_t block = FarSegment::blockBytes;
+  const FarCache cache(folder, std::uint64_t(1) << 30);
+  int lost = 0;
+  for (int round = 0; round < 300; ++round)
+  {
+    identity.tag = '"' + std::to_string(round) + '"';
+    std::atomic<int> ready{ 0 };
+    std::vector<std::thread> writers;
+    for (int i = 0; i < threads; ++i)
+    {
+      writers.emplace_back(
+        [&, i]
+        {
+          ++ready;
+          while (ready < threads) // the kernel starts threads one by one
+          {
+            std::this_thread::yield();
+          }
+          keep(cache, i * block, block);
+        });
+    }
+    for (std::thread& writer : writers)
+    {
+      writer.join();
+    }
+    for (int i = 0; i < threads; ++i)
+    {
+      lost += has(cache, i * block, block) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(lost, 0);
 }
 
 TEST_F(FarCaching, ProcessesThatAreKilledLeaveNoWrongByte)

@@ -48,7 +48,7 @@ public:
     const Node row = table->node(fetched.node);
     node.describe(row);
     node.origin =
-      QuantisationGrid{ glm::dvec3(0.01) }.toGrid(row.centre - glm::dvec3(row.halfSize));
+      QuantisationGrid{ glm::dvec3(0.01) }.toGrid(row.centre - glm::dvec3(row.halfSize) + ownLow);
     node.positions.resize(pointsOfPlannedNode);
     node.selection = fetched.columns;
     node.columns.resize(fetched.columns.size(), std::vector<std::byte>(pointsOfPlannedNode));
@@ -61,6 +61,7 @@ public:
   }
   std::size_t storedBytes(NodeIndex, const ColumnSelection&) const override { return 1; }
 
+  glm::dvec3 ownLow{ 0.0 }; ///< the lowest of a node's own points, from the low of its box
   mutable std::atomic<int> reads{ 0 };
   std::shared_ptr<const Hierarchy> table = std::make_shared<HierarchyTable>(
     rowsOfLayers(), std::vector<NodeIndex>{ 0, 1, 2 }, Refinement::Add);

@@ -6,8 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <sstream>
@@ -96,35 +98,57 @@ TEST(FramePlanner, WhatGrowsAroundTheEyeIsNotLarge)
   EXPECT_TRUE(grew);
 }
 
-/// A turn brings nodes into view whose parents were seen. Nobody saw their places, so they are
-/// whole at once. When they grew, the splats of all coarser nodes were as large as bridges what was
-/// missing, across the whole view: Autzen's picture in motion lost 4.5 dB.
-TEST(FramePlanner, WhatATurnBringsIntoViewIsWhole)
+namespace
 {
-  Scene scene;
-  DetailGrowth growth;
-  scene.request.growth = &growth;
-  scene.request.moment.duration = 0.2;
-  const auto look = [&](double x)
+
+/// A scene seen from above, from one place after the other.
+struct Turn
+{
+  Turn()
+  {
+    scene.request.growth = &growth;
+    scene.request.moment.duration = 0.2;
+  }
+  /// Nodes of layer 0 that are seen there, and whether they are whole.
+  std::map<NodeIndex, bool> look(double x)
   {
     const glm::dvec3 eye(x, 0, 300), focus(x, 0, 0), up(0, 1, 0);
     scene.frameRequest.view = View::perspective(eye, focus, up, 0.3, 1.0, 1e5, 1000, 1000);
     scene.request.camera = FrameCamera::perspective(eye, focus, up, 0.3, 1.0, 1e5, 1000, 1000);
     scene.request.moment.seconds += 0.02;
-    return scene.plan(1.0);
-  };
-  const auto nodes = [](const FramePlan& plan)
-  {
     std::map<NodeIndex, bool> whole;
+    const FramePlan plan = scene.plan(1.0);
     for (const PlanItem& item : plan.batches.at(0).items)
     {
       whole[item.node->node] = item.growth.whole() && item.growingSpacingPx == 0.0f;
     }
     return whole;
-  };
-  ASSERT_EQ(nodes(look(-150.0)), (std::map<NodeIndex, bool>{ { 0, true }, { 3, true } }));
-  ASSERT_EQ(
-    nodes(look(-40.0)), (std::map<NodeIndex, bool>{ { 0, true }, { 3, true }, { 4, true } }));
+  }
+
+  Scene scene;
+  DetailGrowth growth;
+};
+using Seen = std::map<NodeIndex, bool>;
+
+} // namespace
+
+/// A turn brings nodes into view whose parents were seen. Nobody saw their places, so they are
+/// whole at once. When they grew, the splats of all coarser nodes were as large as bridges what was
+/// missing, across the whole view: Autzen's picture in motion lost 4.5 dB.
+TEST(FramePlanner, WhatATurnBringsIntoViewIsWhole)
+{
+  Turn turn;
+  ASSERT_EQ(turn.look(-150.0), (Seen{ { 0, true }, { 3, true } }));
+  ASSERT_EQ(turn.look(-40.0), (Seen{ { 0, true }, { 3, true }, { 4, true } }));
+}
+
+/// A node's place is the box of its row, not one of its size that begins at its own points.
+TEST(FramePlanner, WhatATurnBringsIntoViewIsWholeWhereverItsOwnPointsBegin)
+{
+  Turn turn;
+  turn.scene.reader->ownLow.x = 99.0;
+  ASSERT_EQ(turn.look(130.0), (Seen{ { 0, true }, { 4, true } }));
+  ASSERT_EQ(turn.look(40.0), (Seen{ { 0, true }, { 3, true }, { 4, true } }));
 }
 
 TEST(FramePlanner, GroupsAllThatTheFrontDrawsByLayer)
@@ -369,4 +393,42 @@ TEST(FramePlanner, ANodeAmongFinerOnesHasSplatsOfTheirSize)
   }
   EXPECT_FALSE(all.batches[2].items.front().refined);
   EXPECT_FLOAT_EQ(all.batches[2].items.front().closingRadius, 8.0f);
+}
+
+/// A lens that reaches no node of a layer has no batch, and the styles behind it keep their places.
+TEST(FramePlanner, StylesOfAnotherActorComeToTheirPlaces)
+{
+  const auto inLens = [](std::int16_t lens)
+  {
+    ResolvedStyle style;
+    style.size.mode = SplatSize::Mode::World;
+    style.size.value = 1.0;
+    style.lens = lens;
+    return std::make_shared<const ResolvedStyle>(style);
+  };
+  Scene scene;
+  FrameLens corner, middle;
+  corner.centrePx = { 2.0f, 2.0f };
+  middle.centrePx = { 500.0f, 500.0f };
+  corner.halfSizePx = middle.halfSizePx = { 1.0f, 1.0f };
+  scene.request.shading.lenses = { corner, middle };
+  LayerStyles styles;
+  styles.assign({ flatStyle(), inLens(0), inLens(1) });
+  scene.request.styles.assign(3, styles);
+  FramePlan plan = scene.plan(0.01);
+  ASSERT_GT(plan.batches.size(), 1u);
+  LayerStyles others;
+  others.assign({ flatStyle(), inLens(0), inLens(1) });
+  std::vector<std::int16_t> lenses;
+  for (const DrawBatch& batch : plan.batches)
+  {
+    lenses.push_back(batch.style->lens);
+  }
+  EXPECT_EQ(std::count(lenses.begin(), lenses.end(), 0), 0);
+  EXPECT_GT(std::count(lenses.begin(), lenses.end(), 1), 0);
+  restyle(plan, std::vector<LayerStyles>(3, others));
+  for (std::size_t i = 0; i < lenses.size(); ++i)
+  {
+    EXPECT_EQ(plan.batches[i].style, others[static_cast<std::size_t>(lenses[i] + 1)]);
+  }
 }

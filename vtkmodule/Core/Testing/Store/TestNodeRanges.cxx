@@ -50,7 +50,7 @@ std::shared_ptr<const NodeRanges> rangesOfLeaves(
       nodes.back().parent = 0;
     }
     node.ranges = { range };
-    writer.add(node);
+    writer.add(node.bounds, node.ranges);
     payloads.push_back(i);
   }
   const std::vector<std::byte> bytes = writer.encode(nodes, payloads);

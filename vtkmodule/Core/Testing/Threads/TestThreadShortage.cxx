@@ -20,13 +20,7 @@
 
 #include <sys/resource.h>
 
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define POINTFRONT_MEMORY_IS_THE_SANITIZERS
-#endif
-
 using namespace pointfront;
-
-#ifndef POINTFRONT_MEMORY_IS_THE_SANITIZERS
 
 namespace
 {
@@ -105,8 +99,6 @@ TEST(ThreadShortageDeathTest, NodesAreLoadedByWhoAsksForThem)
     },
     ::testing::ExitedWithCode(0), "");
 }
-
-#endif
 
 namespace
 {

@@ -5,6 +5,7 @@
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Points/SplatRadius.h"
+#include "pointfront/Query/InputBox.h"
 #include "pointfront/Store/StoreAssembly.h"
 
 #include <algorithm>
@@ -229,6 +230,11 @@ Result<void> StoreBuild::findShortSources()
 /// Inputs that have points, none of which can be stored.
 Result<void> StoreBuild::findEmptySources()
 {
+  if (options_.box) // points that are not stored lie outside
+  {
+    report_.pointsOutside = options_.box->pointsOutside();
+    return points_.kept > 0 ? Result<void>() : options_.box->nothingInside();
+  }
   std::vector<Error> faults;
   for (std::size_t s = 0; s < sources_.size(); ++s)
   {

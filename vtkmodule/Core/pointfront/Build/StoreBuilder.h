@@ -17,6 +17,7 @@
 namespace pointfront
 {
 class BuildWatch;
+class InputBox;
 
 /// The depth of the values in a colour's 16 bits. Files do not say: many have values of 8 bits.
 enum class ColourDepth
@@ -61,6 +62,9 @@ struct BuildOptions
   std::optional<QuantisationGrid> grid;
   /// The larger cloud has colours of 16 bits: those of 8 bits are widened here too (ByFile).
   bool wideColours = false;
+  /// The box that the inputs were cut to, if they were: an input may then have no point left, and
+  /// it is an Error if all have none.
+  std::shared_ptr<InputBox> box;
   bool overwrite = false; ///< false: an existing output is an Error
   /// Behaviour for an input that has points of which none can be stored.
   OnFault onFault = OnFault::Stop;
@@ -76,6 +80,8 @@ struct BuildReport
   /// Reason -> count; a warning tells it too. "missing" counts the points that a header promises
   /// and its file lacks: they were not read.
   std::map<std::string, std::uint64_t> pointsRejected;
+  /// Points that were read and lie outside of the options' box; not among pointsRead.
+  std::uint64_t pointsOutside = 0;
   std::vector<InputFault> inputsSkipped; ///< they have no point to store (OnFault::Skip)
   double seconds = 0.0;
   std::uint64_t bytesWritten = 0;

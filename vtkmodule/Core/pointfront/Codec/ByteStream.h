@@ -6,6 +6,7 @@
 #include <limits>
 #include <string>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 // The store is little-endian and its arrays are copied as they lie in memory.
@@ -31,9 +32,8 @@ public:
   {
     if (size != 0)
     {
-      const std::size_t at = bytes_.size();
-      bytes_.resize(at + size);
-      std::memcpy(bytes_.data() + at, data, size);
+      const auto* const begin = static_cast<const std::byte*>(data);
+      bytes_.insert(bytes_.end(), begin, begin + size);
     }
   }
   /// 32-bit length, then the bytes.
@@ -42,7 +42,10 @@ public:
     put(static_cast<std::uint32_t>(text.size()));
     putBytes(text.data(), text.size());
   }
+  /// Room for so many bytes, which makes it quicker to put them.
+  void reserve(std::size_t bytes) { bytes_.reserve(bytes); }
   std::size_t size() const { return bytes_.size(); }
+  std::vector<std::byte> take() { return std::move(bytes_); }
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
 private:
@@ -82,6 +85,18 @@ public:
       at_ += size;
     }
     return true;
+  }
+  /// So many bytes where they lie; null: they are not there.
+  const std::byte* getBytes(std::size_t size)
+  {
+    if (size > remaining())
+    {
+      ok_ = false;
+      at_ = size_;
+      return nullptr;
+    }
+    at_ += size;
+    return data_ + at_ - size;
   }
   std::string getText()
   {

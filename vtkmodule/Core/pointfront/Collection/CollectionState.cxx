@@ -48,7 +48,7 @@ bool codedAlike(const StoreDescription& a, const StoreDescription& b)
 } // namespace
 
 CollectionState::CollectionState(std::string path, std::shared_ptr<const PointStore> before,
-  std::shared_ptr<const CollectionRecord> record)
+  std::optional<CollectionRecord> record)
   : path_(std::move(path))
   , before_(std::move(before))
   , last_(std::move(record))
@@ -58,8 +58,7 @@ CollectionState::CollectionState(std::string path, std::shared_ptr<const PointSt
     next_.state = last_->state;
     next_.nextId = last_->nextId;
     next_.kinds = last_->kinds;
-    next_.tiles = last_->tiles;
-    next_.history = last_->history;
+    next_.history = std::move(last_->history);
   }
 }
 
@@ -75,27 +74,50 @@ void CollectionState::takeTiles(std::vector<IncomingTile>& added, const Collecti
   }
 }
 
+/// The tiles of the next state by their kinds, in the order in which tiles have them first.
+/// `places` gets the place of each kind.
+std::vector<AlikeTiles> CollectionState::alikeTiles(std::vector<std::size_t>& places) const
+{
+  constexpr std::size_t none = SIZE_MAX;
+  std::vector<AlikeTiles> alike;
+  places.assign(next_.kinds.size(), none);
+  for (std::size_t t = 0; t < next_.tiles.size(); ++t)
+  {
+    const CollectedTile& tile = next_.tiles[t];
+    std::size_t& place = places[tile.kind];
+    if (place == none)
+    {
+      place = alike.size();
+      alike.emplace_back().begin(next_.description(t, tile.is.address));
+    }
+    else
+    {
+      alike[place].add(tile);
+    }
+  }
+  return alike;
+}
+
 /// Describes all tiles together, as the next state shows them. The parts of the last `added`.
 Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t added)
 {
-  std::vector<StoreDescription> own;
-  for (std::size_t t = 0; t < next_.tiles.size(); ++t)
+  std::vector<std::size_t> places;
+  std::vector<AlikeTiles> alike = alikeTiles(places);
+  std::vector<QuantisationGrid> grids;
+  for (const CollectedTile& tile : next_.tiles)
   {
-    own.push_back(next_.description(t, next_.tiles[t].is.address));
+    grids.push_back(tile.grid);
   }
-  std::vector<const StoreDescription*> tiles;
-  for (const StoreDescription& description : own)
-  {
-    tiles.push_back(&description);
-  }
-  Result<TileDescription> described = TileDescription::of(path_, tiles, {});
+  Result<TileDescription> described = TileDescription::of(path_, alike, grids, {});
   if (described && last_ && !codedAlike(described->whole, last_->whole))
   {
     // The heads keep what they have: fewer attributes, or a coarser grid, come with `compact`.
     std::vector<std::string> warnings = std::move(described->whole.warnings);
-    const StoreDescription known = emptied(last_->whole);
-    tiles.insert(tiles.begin(), &known);
-    described = TileDescription::of(path_, tiles, {});
+    AlikeTiles known;
+    known.begin(emptied(last_->whole));
+    alike.insert(alike.begin(), std::move(known));
+    grids.insert(grids.begin(), last_->whole.grid);
+    described = TileDescription::of(path_, alike, grids, {});
     if (described)
     {
       described->whole.warnings = std::move(warnings);
@@ -120,9 +142,14 @@ Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t
     }
     adaption_ = std::make_unique<TileDescription>(std::move(*adaption));
   }
-  described->parts.erase(
-    described->parts.begin(), described->parts.end() - static_cast<std::ptrdiff_t>(added));
-  return std::move(described->parts);
+  std::vector<TileDescription::Part> parts;
+  for (auto tile = next_.tiles.end() - static_cast<std::ptrdiff_t>(added);
+       tile != next_.tiles.end(); ++tile)
+  {
+    parts.push_back(described->parts[places[tile->kind]]);
+    parts.back().placing = TilePlacing(tile->grid, next_.whole.grid);
+  }
+  return parts;
 }
 
 /// A node of the tree of heads of the state before, with all below it.
@@ -130,21 +157,14 @@ std::unique_ptr<HeadItem> CollectionState::storedItem(NodeIndex node) const
 {
   const Hierarchy& table = *before_->hierarchy();
   const Node row = table.node(node);
-  auto item = std::make_unique<HeadItem>();
   if (const auto& root = last_->heads[node].root)
   {
     const CollectedTile& tile = last_->tiles[root->first];
-    item->leaf = true;
-    item->tile = tile.is.id;
-    item->root = root->second;
-    item->row = tile.roots[root->second].row;
-    item->box = item->row.box();
-    item->area = rootArea(item->row);
-    return item;
+    return HeadItem::leafOf(tile.is.id, root->second, tile.roots[root->second].row);
   }
+  auto item = std::make_unique<HeadItem>();
   item->stored = node;
   item->storedPoints = row.pointCount;
-  item->facts = last_->heads[node];
   for (std::uint32_t c = 0; c < row.childCount; ++c)
   {
     item->children.push_back(storedItem(row.firstChild + c));
@@ -210,8 +230,19 @@ Result<void> CollectionState::openTrees()
       continue; // the fault of the table says why
     }
     const CollectedTile& tile = last_->tiles[is->first];
-    const HeadTreeKey own = last_->treeOf(tile, is->second);
-    const Layer& known = last_->whole.layers[own.layer];
+    trees_.emplace(last_->treeOf(tile, is->second), HeadTree(storedItem(root), read));
+  }
+  const std::optional<Error> fault = table.fault();
+  return fault ? Result<void>(*fault) : Result<void>();
+}
+
+/// From the layers of the state before to those of the next.
+void CollectionState::renameTrees()
+{
+  std::map<HeadTreeKey, HeadTree> named;
+  for (auto& [key, tree] : trees_)
+  {
+    const Layer& known = last_->whole.layers[key.layer];
     const auto found = std::find_if(next_.whole.layers.begin(), next_.whole.layers.end(),
       [&](const Layer& layer)
       { return layer.objectClass == known.objectClass && layer.name == known.name; });
@@ -219,11 +250,10 @@ Result<void> CollectionState::openTrees()
     const auto number = static_cast<std::uint16_t>(found - next_.whole.layers.begin());
     if (number < next_.whole.layers.size())
     {
-      trees_.emplace(HeadTreeKey{ number, own.epoch }, HeadTree(storedItem(root), read));
+      named.emplace(HeadTreeKey{ number, key.epoch }, std::move(tree));
     }
   }
-  const std::optional<Error> fault = table.fault();
-  return fault ? Result<void>(*fault) : Result<void>();
+  trees_ = std::move(named);
 }
 
 Result<void> CollectionState::insertHeads(const std::vector<IncomingTile>& added,
@@ -284,6 +314,14 @@ Result<void> CollectionState::insertHeads(const std::vector<IncomingTile>& added
 Result<void> CollectionState::change(const std::unordered_set<std::uint32_t>& removed,
   std::vector<IncomingTile> added, const CollectionOptions& options)
 {
+  if (Result<void> opened = openTrees(); !opened)
+  {
+    return opened;
+  }
+  if (last_)
+  {
+    next_.tiles = std::move(last_->tiles);
+  }
   next_.tiles.erase(std::remove_if(next_.tiles.begin(), next_.tiles.end(),
                       [&](const CollectedTile& tile) { return removed.count(tile.is.id) > 0; }),
     next_.tiles.end());
@@ -298,7 +336,8 @@ Result<void> CollectionState::change(const std::unordered_set<std::uint32_t>& re
   {
     return parts.error();
   }
-  Result<void> done = openTrees();
+  renameTrees();
+  Result<void> done;
   for (auto& [key, tree] : trees_)
   {
     done = done && !removed.empty() ? tree.remove(removed) : done;
@@ -331,16 +370,19 @@ Result<CollectionReport> CollectionState::write(std::unique_ptr<OutputFile> file
     }
   }
   HeadTable table(roots);
+  StoredHeads before;
+  before.store = before_.get();
+  before.facts = last_ ? std::move(last_->heads) : std::vector<HeadNode>();
   Result<std::unique_ptr<StoreWriter>> writer = assembleStore(std::move(file), schema);
   if (!writer)
   {
     return writer.error();
   }
-  if (Result<void> done = table.append(**writer, schema, before_.get(), path_); !done)
+  if (Result<void> done = table.append(**writer, schema, std::move(before), path_); !done)
   {
     return done.error();
   }
-  next_.heads = table.facts(next_.tiles);
+  next_.heads = table.takeFacts(next_.tiles);
   StoreDescription heads;
   heads.grid = next_.whole.grid;
   heads.crsWkt = next_.whole.crsWkt;
@@ -350,7 +392,8 @@ Result<CollectionReport> CollectionState::write(std::unique_ptr<OutputFile> file
   heads.layers = std::move(layers);
   heads.splatRadiusBase = next_.whole.splatRadiusBase;
   heads.metadata.push_back({ collectionOwner, collectionId, "tiles", next_.encode() });
-  if (Result<void> done = (*writer)->commit(heads, table.rows(), table.roots(), table.payloads());
+  if (Result<void> done =
+        (*writer)->commit(std::move(heads), table.rows(), table.roots(), table.payloads());
       !done)
   {
     return done.error();

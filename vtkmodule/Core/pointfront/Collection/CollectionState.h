@@ -9,6 +9,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <unordered_set>
 #include <utility>
@@ -22,11 +23,11 @@ namespace pointfront
 class CollectionState
 {
 public:
-  /// `before` is the heads' store of the state before and its record; null: there is none.
+  /// `before` is the heads' store of the state before, `record` its record; null: there is none.
   CollectionState(std::string path, std::shared_ptr<const PointStore> before,
-    std::shared_ptr<const CollectionRecord> record);
+    std::optional<CollectionRecord> record);
 
-  /// The record of the next state, with the tiles of the one before.
+  /// The record of the next state; its tiles come with change().
   CollectionRecord& record() { return next_; }
   /// Takes some tiles out and others in; sets ids of those that have none.
   Result<void> change(const std::unordered_set<std::uint32_t>& removed,
@@ -36,8 +37,10 @@ public:
 
 private:
   void takeTiles(std::vector<IncomingTile>& added, const CollectionOptions& options);
+  std::vector<AlikeTiles> alikeTiles(std::vector<std::size_t>& places) const;
   Result<std::vector<TileDescription::Part>> describe(std::size_t added);
   Result<void> openTrees();
+  void renameTrees();
   std::unique_ptr<HeadItem> storedItem(NodeIndex node) const;
   Result<HeadPoints> load(const HeadItem& group) const;
   Result<void> insertHeads(const std::vector<IncomingTile>& added,
@@ -46,7 +49,7 @@ private:
 
   std::string path_;
   std::shared_ptr<const PointStore> before_;
-  std::shared_ptr<const CollectionRecord> last_;
+  std::optional<CollectionRecord> last_; ///< without tiles and history from change() on
   CollectionRecord next_;
   bool recoded_ = false; ///< stored points are not as the next state has them
   std::unique_ptr<TileDescription> adaption_; ///< part 1: of the whole of the state before

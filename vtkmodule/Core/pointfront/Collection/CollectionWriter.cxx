@@ -5,8 +5,10 @@
 #include "pointfront/Tiles/CollectionCloud.h"
 
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <set>
+#include <unordered_map>
+#include <unordered_set>
 #include <utility>
 
 namespace pointfront
@@ -19,7 +21,7 @@ struct Begun
 {
   std::unique_ptr<OutputFile> file;
   std::shared_ptr<const PointStore> heads;
-  std::shared_ptr<const CollectionRecord> record;
+  std::optional<CollectionRecord> record; ///< there is one
 };
 
 Result<Begun> begin(const std::string& path)
@@ -49,7 +51,7 @@ Result<Begun> begin(const std::string& path)
     return heads.error();
   }
   begun.heads = std::move(*heads);
-  Result<std::shared_ptr<const CollectionRecord>> record = CollectionCloud::recordOf(*begun.heads);
+  Result<CollectionRecord> record = CollectionCloud::recordOf(*begun.heads);
   if (!record)
   {
     return record.error();
@@ -64,15 +66,17 @@ std::string counted(const char* verb, std::size_t tiles)
 }
 
 /// Names are unique; a plain name that another tile has becomes the tile's address.
-Result<void> nameApart(
-  const std::string& path, const std::vector<TileName>& kept, std::vector<IncomingTile>& added)
+Result<void> nameApart(const std::string& path, const std::vector<const TileName*>& kept,
+  std::vector<IncomingTile>& added)
 {
-  std::set<std::string> names;
-  std::set<std::string> addresses;
-  for (const TileName& tile : kept)
+  std::unordered_set<std::string> names;
+  std::unordered_set<std::string> addresses;
+  names.reserve(kept.size());
+  addresses.reserve(kept.size());
+  for (const TileName* const tile : kept)
   {
-    names.insert(tile.name);
-    addresses.insert(tile.address);
+    names.insert(tile->name);
+    addresses.insert(tile->address);
   }
   for (IncomingTile& tile : added)
   {
@@ -111,12 +115,12 @@ Result<CollectionReport> apply(
   {
     removed.insert(tile.id);
   }
-  std::vector<TileName> kept;
+  std::vector<const TileName*> kept;
   for (const CollectedTile& tile : begun.record->tiles)
   {
     if (removed.count(tile.is.id) == 0)
     {
-      kept.push_back(tile.is);
+      kept.push_back(&tile.is);
     }
   }
   Result<std::vector<IncomingTile>> added = openTiles(path, change.requests, options.progress);
@@ -131,9 +135,9 @@ Result<CollectionReport> apply(
   {
     return fits.error();
   }
-  CollectionState state(path, begun.heads, begun.record);
   const std::size_t count = added->size();
   const std::uint32_t firstId = begun.record->nextId;
+  CollectionState state(path, begun.heads, std::move(begun.record));
   CollectionRecord& next = state.record();
   if (change.undoes)
   {
@@ -193,7 +197,7 @@ Result<CollectionReport> createCollection(
     return fits.error();
   }
   const std::size_t count = opened->size();
-  CollectionState state(path, nullptr, nullptr);
+  CollectionState state(path, nullptr, std::nullopt);
   if (Result<void> done = state.change({}, std::move(*opened), options); !done)
   {
     return done.error();
@@ -265,7 +269,8 @@ Result<CollectionReport> removeTiles(
     return begun.error();
   }
   Change change{ {}, {}, "", false };
-  std::map<std::string, const TileName*> known;
+  std::unordered_map<std::string, const TileName*> known;
+  known.reserve(2 * begun->record->tiles.size());
   for (const CollectedTile& tile : begun->record->tiles)
   {
     known.emplace(tile.is.address, &tile.is);
@@ -339,7 +344,7 @@ Result<CollectionReport> compactCollection(
   {
     return opened.error();
   }
-  CollectionState state(path, nullptr, nullptr);
+  CollectionState state(path, nullptr, std::nullopt);
   state.record().state = begun->record->state;
   state.record().nextId = begun->record->nextId;
   if (Result<void> done = state.change({}, std::move(*opened), options); !done)

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <optional>
 #include <unordered_map>
 #include <utility>
@@ -14,21 +15,20 @@ namespace pointfront
 {
 namespace
 {
-/// The points of a group as they lie in the state before.
-Result<EncodedNode> storedNode(const HeadItem& group, const PointStore& before)
+/// Items of a tree.
+std::size_t itemsOf(const HeadItem& item)
 {
-  Result<EncodedNode> stored = before.encodedNode(group.stored);
-  if (stored)
-  {
-    stored->bounds = group.facts.bounds;
-    stored->ranges = group.facts.ranges;
-  }
-  return stored;
+  return std::accumulate(item.children.begin(), item.children.end(), std::size_t(1),
+    [](std::size_t sum, const auto& child) { return sum + itemsOf(*child); });
 }
 } // namespace
 
 HeadTable::HeadTable(const std::vector<const HeadItem*>& roots)
 {
+  const std::size_t count = std::accumulate(roots.begin(), roots.end(), std::size_t(0),
+    [](std::size_t sum, const HeadItem* root) { return sum + itemsOf(*root); });
+  items_.reserve(count);
+  rows_.reserve(count);
   for (std::size_t r = 0; r < roots.size(); ++r)
   {
     Node row;
@@ -68,8 +68,8 @@ void HeadTable::describeRow(NodeIndex node, double areaAbove, double pointsAbove
   Node& row = rows_[node];
   if (item.leaf)
   {
-    row.spacing = item.row.spacing;
-    row.splatRadius = item.row.splatRadius;
+    row.spacing = item.spacing;
+    row.splatRadius = item.splatRadius;
     return;
   }
   const double inherited = pointsAbove * std::min(1.0, item.area / areaAbove);
@@ -89,59 +89,93 @@ void HeadTable::describeRow(NodeIndex node, double areaAbove, double pointsAbove
   }
 }
 
-Result<void> HeadTable::append(StoreWriter& writer, const AttributeSchema& schema,
-  const PointStore* before, const std::string& path)
+/// The points of a group as they lie in the state before.
+Result<StoreWriter::PayloadId> HeadTable::appendStored(
+  StoreWriter& writer, const HeadItem& group, PayloadCopy& copy, HeadNode& facts)
 {
-  const std::size_t count = items_.size();
-  std::vector<std::optional<EncodedNode>> encoded(count);
-  std::vector<std::optional<Error>> faults(count);
-  ThreadCrew::ofProcess().run(count,
+  const Result<StoredPayload> payload = copy.of(group.stored, group.storedPoints);
+  if (!payload)
+  {
+    return payload.error();
+  }
+  facts_.push_back(std::move(facts));
+  return writer.append(*payload, facts_.back().bounds, facts_.back().ranges);
+}
+
+/// Codes the points of groups that changed, in the order of the items.
+Result<std::vector<EncodedNode>> HeadTable::encodeChanged(
+  const AttributeSchema& schema, const std::string& path) const
+{
+  std::vector<const HeadPoints*> changed;
+  for (const HeadItem* const item : items_)
+  {
+    if (item->points)
+    {
+      changed.push_back(item->points.get());
+    }
+  }
+  std::vector<EncodedNode> encoded(changed.size());
+  std::vector<char> fits(changed.size(), 1);
+  ThreadCrew::ofProcess().run(changed.size(),
     [&](std::size_t i, unsigned)
     {
-      const HeadItem& item = *items_[i];
-      if (item.leaf || !item.points)
-      {
-        return;
-      }
       NodeColumns node;
-      if (item.points->asNode(schema, node))
+      fits[i] = changed[i]->asNode(schema, node) ? 1 : 0;
+      if (fits[i] != 0)
       {
         encoded[i] = encodeNode(node, schema);
-        return;
       }
-      faults[i] = makeError(Error::Kind::Unsupported,
-        path +
-          ": its tiles lie farther apart than 32 bits of steps of the finest grid; build "
-          "them with a coarser --precision");
     });
+  if (std::find(fits.begin(), fits.end(), 0) != fits.end())
+  {
+    return makeError(Error::Kind::Unsupported,
+      path +
+        ": its tiles lie farther apart than 32 bits of steps of the finest grid; build "
+        "them with a coarser --precision");
+  }
+  return encoded;
+}
+
+Result<void> HeadTable::append(
+  StoreWriter& writer, const AttributeSchema& schema, StoredHeads before, const std::string& path)
+{
+  Result<std::vector<EncodedNode>> encoded = encodeChanged(schema, path);
+  if (!encoded)
+  {
+    return encoded.error();
+  }
+  std::optional<PayloadCopy> copy;
+  if (before.store != nullptr)
+  {
+    copy.emplace(*before.store);
+  }
   NodeColumns none;
   HeadPoints().asNode(schema, none);
-  const EncodedNode nothing = encodeNode(none, schema);
-  for (std::size_t i = 0; i < count; ++i)
+  std::optional<StoreWriter::PayloadId> nothing; // all leaves have it
+  auto next = encoded->begin();
+  payloads_.reserve(items_.size());
+  facts_.reserve(items_.size());
+  for (const HeadItem* const item : items_)
   {
-    const HeadItem& item = *items_[i];
-    if (faults[i])
-    {
-      return *faults[i];
-    }
-    if (!item.leaf && !encoded[i])
-    {
-      Result<EncodedNode> stored = storedNode(item, *before);
-      if (!stored)
-      {
-        return stored.error();
-      }
-      encoded[i] = std::move(*stored);
-    }
-    const EncodedNode& payload = item.leaf ? nothing : *encoded[i];
-    const Result<StoreWriter::PayloadId> id = writer.append(payload);
+    const Result<StoreWriter::PayloadId> id = item->leaf && nothing ? *nothing
+      : item->leaf   ? writer.append(encodeNode(none, schema))
+      : item->points ? writer.append(*next)
+                     : appendStored(writer, *item, *copy, before.facts[item->stored]);
     if (!id)
     {
       return id.error();
     }
     payloads_.push_back(*id);
-    facts_.push_back(item.leaf ? HeadNode() : HeadNode{ {}, payload.bounds, payload.ranges });
-    encoded[i].reset();
+    if (item->leaf)
+    {
+      nothing = *id;
+      facts_.emplace_back();
+    }
+    else if (item->points)
+    {
+      facts_.push_back({ {}, next->bounds, std::move(next->ranges) });
+      *next++ = EncodedNode();
+    }
   }
   return {};
 }
@@ -156,22 +190,22 @@ std::uint64_t HeadTable::points() const
   return sum;
 }
 
-std::vector<HeadNode> HeadTable::facts(const std::vector<CollectedTile>& tiles) const
+std::vector<HeadNode> HeadTable::takeFacts(const std::vector<CollectedTile>& tiles)
 {
   std::unordered_map<std::uint32_t, std::uint32_t> places;
+  places.reserve(tiles.size());
   for (std::size_t t = 0; t < tiles.size(); ++t)
   {
     places[tiles[t].is.id] = static_cast<std::uint32_t>(t);
   }
-  std::vector<HeadNode> all = facts_;
   for (std::size_t i = 0; i < items_.size(); ++i)
   {
     if (items_[i]->leaf)
     {
-      all[i] = { std::pair(places[items_[i]->tile], items_[i]->root), {}, {} };
+      facts_[i].root = std::pair(places[items_[i]->tile], items_[i]->root);
     }
   }
-  return all;
+  return std::move(facts_);
 }
 
 } // namespace pointfront

@@ -107,13 +107,27 @@ double fractionOf(std::uint32_t tile, std::size_t depth)
   h ^= h >> 12;
   return h / 4294967296.0;
 }
-} // namespace
 
+/// The area that the points of a root lie on, by their spacing.
 double rootArea(const Node& row)
 {
   const double bySpacing = double(row.spacing) * row.spacing * row.pointCount;
   const double byBox = 4.0 * double(row.halfSize.x) * row.halfSize.y;
   return bySpacing > 0.0 ? bySpacing : std::max(byBox, 1e-12);
+}
+} // namespace
+
+std::unique_ptr<HeadItem> HeadItem::leafOf(std::uint32_t tile, std::uint32_t root, const Node& row)
+{
+  auto item = std::make_unique<HeadItem>();
+  item->leaf = true;
+  item->tile = tile;
+  item->root = root;
+  item->spacing = row.spacing;
+  item->splatRadius = row.splatRadius;
+  item->box = row.box();
+  item->area = rootArea(row);
+  return item;
 }
 
 void HeadItem::addUp()
@@ -168,7 +182,6 @@ void HeadTree::build(std::vector<TileHead> heads)
   std::vector<TileHead*> all;
   for (TileHead& head : heads)
   {
-    head.leaf->area = rootArea(head.leaf->row);
     all.push_back(&head);
   }
   root_ = grouped(std::move(all));
@@ -206,7 +219,6 @@ Result<void> HeadTree::loadAll()
 
 Result<void> HeadTree::insert(TileHead head)
 {
-  head.leaf->area = rootArea(head.leaf->row);
   if (!root_)
   {
     std::vector<TileHead> one;

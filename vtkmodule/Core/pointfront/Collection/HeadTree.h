@@ -21,11 +21,11 @@ struct HeadItem
   bool leaf = false;
   std::uint32_t tile = 0; ///< a leaf's: id of the tile
   std::uint32_t root = 0; ///< and which of its roots
-  Node row; ///< that root, as it stands in its tile
+  float spacing = 0.0f; ///< that root's
+  float splatRadius = 0.0f;
 
   std::vector<std::unique_ptr<HeadItem>> children; ///< a group's
   NodeIndex stored = noNode; ///< node of the state before that has the group's points
-  HeadNode facts; ///< about stored points
   std::uint32_t storedPoints = 0;
   std::unique_ptr<HeadPoints> points; ///< where they are no longer the stored ones
 
@@ -37,10 +37,10 @@ struct HeadItem
     return points ? static_cast<std::uint32_t>(points->size()) : storedPoints;
   }
   void addUp(); ///< box and area of a group, from its children
-};
 
-/// The area that the points of a root lie on, by their spacing.
-double rootArea(const Node& row);
+  /// A leaf; `row` is that of the root in its tile.
+  static std::unique_ptr<HeadItem> leafOf(std::uint32_t tile, std::uint32_t root, const Node& row);
+};
 
 /// One root of a tile and its first points, which a tree of heads takes.
 struct TileHead

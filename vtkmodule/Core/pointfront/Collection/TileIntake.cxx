@@ -6,8 +6,8 @@
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Threads/ThreadCrew.h"
-#include "pointfront/Tiles/NodeParts.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
+#include "pointfront/Tiles/TileFetch.h"
 
 #include <algorithm>
 #include <atomic>
@@ -67,7 +67,8 @@ Result<IncomingTile> openTile(const std::string& collection, const TileRequest& 
         "' is not the file any more that the collection knows; put that back, "
         "or take this one in: pointfront collection replace");
   }
-  TileName is{ request.id, relativeAddress(collection, request.path),
+  TileName is{ request.id,
+    request.address.empty() ? relativeAddress(collection, request.path) : request.address,
     request.name.empty() ? tileNameOf(request.path) : request.name, request.epoch, *identity };
   return IncomingTile{ std::move(is), std::move(*cloud) };
 }
@@ -306,12 +307,7 @@ Result<std::vector<TileHead>> readHeads(const IncomingTile& tile,
     {
       return placed.error();
     }
-    auto leaf = std::make_unique<HeadItem>();
-    leaf->leaf = true;
-    leaf->tile = tile.is.id;
-    leaf->root = static_cast<std::uint32_t>(r);
-    leaf->row = roots[r].row;
-    leaf->box = roots[r].row.box();
+    auto leaf = HeadItem::leafOf(tile.is.id, static_cast<std::uint32_t>(r), roots[r].row);
     heads.push_back({ std::move(leaf), HeadPoints::of(head, whole, tile.is.id), 0 });
   }
   return heads;

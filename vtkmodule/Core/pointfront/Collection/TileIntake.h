@@ -22,6 +22,7 @@ struct TileRequest
   std::string epoch = {};
   std::uint32_t id = 0; ///< 0: a new one
   std::optional<TileIdentity> identity = std::nullopt; ///< which it must have
+  std::string address = {}; ///< how the collection names it; empty: by its path
 };
 
 /// An open tile on its way into a collection.

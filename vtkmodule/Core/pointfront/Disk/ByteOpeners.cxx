@@ -1,5 +1,6 @@
 #include "pointfront/Disk/ByteOpeners.h"
 
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Threads/ForkHold.h"
 
 #include <algorithm>
@@ -72,7 +73,13 @@ std::string publicForm(const std::string& path)
   const std::string scheme = schemeOf(path);
   const std::shared_ptr<const ByteOpener> opener =
     scheme.empty() ? nullptr : ByteOpeners::ofProcess().find(scheme);
-  return opener ? opener->publicForm(path) : path;
+  if (!opener)
+  {
+    return path;
+  }
+  EpochAddress named = EpochAddress::of(path);
+  named.file = opener->publicForm(named.file);
+  return named.text();
 }
 
 std::string fileNameOf(std::string_view path)
@@ -86,6 +93,11 @@ std::string fileNameOf(std::string_view path)
 
 std::string beside(const std::string& path, const std::string& name)
 {
+  if (isAddress(name) && isAddress(path))
+  {
+    const std::shared_ptr<const ByteOpener> opener = ByteOpeners::ofProcess().find(schemeOf(path));
+    return opener ? opener->passedOn(path, name) : name;
+  }
   if (isAddress(name) || (!name.empty() && name.front() == '/'))
   {
     return name;

@@ -18,6 +18,13 @@ public:
   /// The public form of an address: without what is secret in it. This process opens it as it opens
   /// the address.
   virtual std::string publicForm(const std::string& address) const { return address; }
+  /// The name under which `to` is opened, an address that the file `from` names: it is read as
+  /// `from` is.
+  virtual std::string passedOn(
+    [[maybe_unused]] const std::string& from, const std::string& to) const
+  {
+    return to;
+  }
   /// By the address as the user wrote it, or its public form. A source that somebody holds open is
   /// the same for all who open its address.
   /// Errors  those of ByteSource.
@@ -62,7 +69,8 @@ std::string fileNameOf(std::string_view path);
 
 /// The address or path of what lies beside `path`, or below its folder: "a/b/ept.json" and
 /// "ept-data/0-0-0-0.laz" give "a/b/ept-data/0-0-0-0.laz". An address keeps its query. `name` may
-/// be an address itself, or an absolute path: it is the answer then.
+/// be an address itself, or an absolute path: it is the answer then. An address that an address
+/// names is read with the same settings (FarSettings).
 std::string beside(const std::string& path, const std::string& name);
 
 } // namespace pointfront

@@ -2,6 +2,7 @@
 
 #include "pointfront/Disk/ByteTraffic.h"
 #include "pointfront/Disk/FarSegment.h"
+#include "pointfront/Disk/FarSettings.h"
 #include "pointfront/Threads/ForkHold.h"
 
 #define XXH_INLINE_ALL
@@ -13,6 +14,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <sstream>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -74,9 +76,10 @@ std::uint64_t limitOfSettings(const std::string& folder)
   return failure ? 0 : std::min<std::uint64_t>(usualLimit, space.available / 10);
 }
 
-std::shared_ptr<const FarCache> cacheOfSettings()
+/// bytes: the most that it keeps; none: by the environment.
+std::shared_ptr<const FarCache> cacheIn(
+  const std::string& folder, const std::optional<std::uint64_t>& bytes)
 {
-  const std::string folder = folderOfSettings();
   std::error_code failure;
   if (folder.empty())
   {
@@ -88,7 +91,7 @@ std::shared_ptr<const FarCache> cacheOfSettings()
     return nullptr;
   }
   ::chmod(folder.c_str(), 0700); // a token may have opened its content
-  const std::uint64_t most = limitOfSettings(folder);
+  const std::uint64_t most = bytes ? *bytes : limitOfSettings(folder);
   return most > 0 ? std::make_shared<const FarCache>(folder, most) : nullptr;
 }
 
@@ -126,8 +129,37 @@ std::shared_ptr<const FarCache> FarCache::ofProcess()
 {
   const ForkHold hold;
   // Never deleted: sources may outlive static objects.
-  static auto* const cache = new std::shared_ptr<const FarCache>(cacheOfSettings());
+  static auto* const cache =
+    new std::shared_ptr<const FarCache>(cacheIn(folderOfSettings(), std::nullopt));
   return *cache;
+}
+
+Result<std::shared_ptr<const FarCache>> FarCache::of(const FarSettings& settings)
+{
+  if (!settings.cacheFolder && !settings.cacheBytes)
+  {
+    return ofProcess();
+  }
+  const std::string folder = settings.cacheFolder.value_or(folderOfSettings());
+  if (folder == "off" || settings.cacheBytes == 0u)
+  {
+    return std::shared_ptr<const FarCache>();
+  }
+  const ForkHold hold;
+  // Never deleted, as that of the process.
+  using Key = std::pair<std::string, std::optional<std::uint64_t>>;
+  static auto* const caches = new std::map<Key, std::shared_ptr<const FarCache>>;
+  std::shared_ptr<const FarCache>& cache = (*caches)[{ folder, settings.cacheBytes }];
+  if (!cache)
+  {
+    cache = cacheIn(folder, settings.cacheBytes);
+  }
+  if (!cache && settings.cacheFolder && ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0)
+  {
+    return makeError(Error::Kind::Unwritable,
+      "'" + folder + "' cannot be the cache of an address: it is no folder that can be written");
+  }
+  return cache;
 }
 
 bool FarCache::offline()

@@ -11,6 +11,7 @@
 
 namespace pointfront
 {
+struct FarSettings;
 
 /// Which far file, and which of its states.
 struct FarIdentity
@@ -40,6 +41,9 @@ public:
   /// Null if it is switched off, or its folder cannot be had.
   static std::shared_ptr<const FarCache> ofProcess();
   static bool offline();
+  /// As ofProcess(), with what the settings of an address say. One folder with one limit is one.
+  /// Errors  Unwritable: a folder that the settings name, and that cannot be had.
+  static Result<std::shared_ptr<const FarCache>> of(const FarSettings& settings);
 
   FarCache(std::string folder, std::uint64_t mostBytes);
 

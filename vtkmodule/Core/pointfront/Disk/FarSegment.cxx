@@ -7,6 +7,7 @@
 #include <cstring>
 #include <ctime>
 #include <fcntl.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <utility>
@@ -101,6 +102,25 @@ bool isWhole(const std::byte* data, const Record& record)
   return record.size > 0 && record.size <= FarSegment::blockBytes &&
     matchesChecksum(data, record.size, record.checksum);
 }
+
+bool hasHeader(const OpenFile& file, const std::string& header)
+{
+  std::string found(headerBytes, '\0');
+  return file.read(0, found.data(), found.size()) && found == header;
+}
+
+/// Makes it a segment with this header, without blocks unless it was one.
+bool beginSegment(const OpenFile& file, const std::string& header)
+{
+  // Who begins it beside another writer would take out that one's blocks. Where a disk has no locks
+  // they may be lost; none is wrong.
+  ::flock(file.number(), LOCK_EX);
+  const std::vector<Record> none(FarSegment::blocks);
+  return hasHeader(file, header) ||
+    (::ftruncate(file.number(), 0) == 0 &&
+      file.write(headerBytes, none.data(), none.size() * sizeof(Record)) &&
+      file.write(0, header.data(), header.size()));
+}
 } // namespace
 
 FarSegment::FarSegment(std::string path, std::string label)
@@ -129,8 +149,7 @@ bool FarSegment::read(std::uint64_t offset, std::size_t size, std::byte* target)
     return false;
   }
   const OpenFile file(path_, O_RDONLY);
-  std::string found(headerBytes, '\0');
-  if (!file.sound() || !file.read(0, found.data(), found.size()) || found != header())
+  if (!file.sound() || !hasHeader(file, header()))
   {
     return false;
   }
@@ -178,16 +197,9 @@ bool FarSegment::write(std::uint64_t offset, const std::byte* data, std::size_t 
     return false;
   }
   const std::string wanted = header();
-  std::string found(headerBytes, '\0');
-  if (!file.read(0, found.data(), found.size()) || found != wanted)
+  if (!hasHeader(file, wanted) && !beginSegment(file, wanted))
   {
-    const std::vector<Record> none(blocks);
-    if (::ftruncate(file.number(), 0) != 0 ||
-      !file.write(headerBytes, none.data(), none.size() * sizeof(Record)) ||
-      !file.write(0, wanted.data(), wanted.size()))
-    {
-      return false;
-    }
+    return false;
   }
   std::vector<Record> records;
   for (std::size_t at = 0; at < size; at += blockBytes)

@@ -9,11 +9,12 @@ namespace pointfront
 
 /// One file of FarCache: the blocks of 8 MiB of a far file, as far as they were fetched.
 /// Layout    4 KiB of header (which file, which part), a record for each block (checksum, size),
-/// the
-///           blocks at their places. What is not there is a hole, which takes no room on the disk.
+///           the blocks at their places. What is not there is a hole and takes no room on the
+///           disk.
 /// Safety    a block counts once its record matches its checksum. Whatever a crash, a full disk or
 ///           another process leaves behind is a block that is not there.
 /// Processes several may read and write one segment: the same block always has the same bytes.
+/// Threads   any, as processes. A lock of the file is held while a writer begins a segment.
 class FarSegment
 {
 public:

@@ -61,6 +61,7 @@ struct DrawBatch
   std::shared_ptr<const ResolvedStyle> style; ///< never null
   std::vector<PlanItem> items; ///< near to far, ties by node
   std::uint8_t level = 0; ///< level of a stand-in's nodes
+  std::uint16_t styleNumber = 0; ///< place of the style among those of the layer
 };
 
 /// The settings of a whole frame, whatever nodes it draws.

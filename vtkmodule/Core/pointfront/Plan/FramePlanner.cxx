@@ -169,12 +169,6 @@ std::array<glm::dvec4, 4> sidesOf(const FrameCamera& camera)
   return sides;
 }
 
-Bounds placeOf(const NodeColumns& node, const QuantisationGrid& grid)
-{
-  const glm::dvec3 low = grid.toWorld(node.origin);
-  return { low, low + 2.0 * glm::dvec3(node.halfSize) };
-}
-
 bool ofNode(const std::vector<TabledNode>& nodes, NodeIndex node)
 {
   return std::binary_search(nodes.begin(), nodes.end(), TabledNode{ { node }, {} },
@@ -182,8 +176,8 @@ bool ofNode(const std::vector<TabledNode>& nodes, NodeIndex node)
 }
 
 /// Those that have a style.
-LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
-  const QuantisationGrid& grid, double spacingPx, const ExpectedNodes* expected)
+LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request, double spacingPx,
+  const ExpectedNodes* expected)
 {
   const std::vector<LayerStyles>& styles = request.styles;
   const auto shows = [&](const std::shared_ptr<const NodeColumns>& node)
@@ -212,7 +206,7 @@ LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request,
     if (shows(node))
     {
       const auto points = std::min(item.pointCount, static_cast<std::uint32_t>(node->size()));
-      const DetailGrowth::Shown shown = growth.grow(node, points, growth.saw(placeOf(*node, grid)));
+      const DetailGrowth::Shown shown = growth.grow(node, points, growth.saw(node->box()));
       const std::uint16_t layer = node->layer;
       const TabledNode* const complete = expected ? expected->find(item.node) : nullptr;
       if (complete && shown.growth.whole() && shown.points >= complete->item.pointCount)
@@ -281,9 +275,10 @@ void addStyled(const std::vector<DrawBatch>& layers, const std::vector<LayerStyl
   const bool standIns = &batches == &plan.standIns;
   for (const DrawBatch& layer : layers)
   {
+    std::uint16_t number = 0;
     for (const std::shared_ptr<const ResolvedStyle>& style : styles[layer.layer])
     {
-      DrawBatch batch{ layer.layer, style, layer.items, layer.level };
+      DrawBatch batch{ layer.layer, style, layer.items, layer.level, number++ };
       keepWhatIsSeen(plan, batch);
       const bool wanted = !standIns || style->size.mode == SplatSize::Mode::Spacing;
       if (wanted && !batch.items.empty())
@@ -309,6 +304,20 @@ bool leavesOut(const FrontDelta& delta, const FrameRequest& request)
   return !request.complete && (!delta.complete || limited);
 }
 
+void restyle(FramePlan& plan, const std::vector<LayerStyles>& styles)
+{
+  for (std::vector<DrawBatch>* batches : { &plan.batches, &plan.standIns })
+  {
+    for (DrawBatch& batch : *batches)
+    {
+      if (batch.layer < styles.size() && batch.styleNumber < styles[batch.layer].size())
+      {
+        batch.style = styles[batch.layer][batch.styleNumber];
+      }
+    }
+  }
+}
+
 FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request)
 {
@@ -325,7 +334,7 @@ FramePlan planFrame(
   plan.composited = request.composited;
   plan.exchange = request.exchange;
   plan.shading = std::move(request.shading);
-  LayerItems items = itemsByLayer(front, request, plan.grid, spacingPx, expected);
+  LayerItems items = itemsByLayer(front, request, spacingPx, expected);
   const bool whole = front.last().complete && (!request.growth || request.growth->whole());
   plan.refining = expected && !whole;
   std::vector<DrawBatch> layers = batchesOf(std::move(items.items));

@@ -56,6 +56,10 @@ struct PlanRequest
 FramePlan planFrame(
   const ViewFront& front, const StoreDescription& description, PlanRequest request);
 
+/// Gives the plan's batches and stand-ins the styles that another request for the same nodes (of
+/// another actor, eye or pass) has in their place. One that has none there stays as it is.
+void restyle(FramePlan& plan, const std::vector<LayerStyles>& styles);
+
 /// Whether the view will show more than this frame: it moves, or nodes are being loaded.
 bool leavesOut(const FrontDelta& delta, const FrameRequest& request);
 

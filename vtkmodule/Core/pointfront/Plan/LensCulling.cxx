@@ -55,7 +55,7 @@ bool mayReach(
   const double top = 2.0 * (extent[3] + margin) / height - 1.0;
 
   const glm::dvec3 half(item.node->halfSize);
-  const glm::dvec3 centre = plan.grid.toWorld(item.node->origin) + half;
+  const glm::dvec3 centre = item.node->centre;
   // In the view without the cancellation of large terms.
   const glm::dmat3 turn(camera.storeToView);
   const glm::dvec3 seen = turn * (centre - camera.reference) + camera.referenceInView;

@@ -17,7 +17,8 @@ struct MeasuredRadius
   /// A node whose few points stand farther apart than its level can see has strays in it, no
   /// surface.
   static constexpr float mostSpacings = 2.0f;
-  /// A whole layer of fewer points is no surface: its points are as small as can be.
+  /// A whole layer of fewer points is no surface: its points are as small as can be. A root that
+  /// has nodes below it is no whole layer: in a tree of means it may hold a dozen.
   static constexpr std::size_t fewestOfSurface = 64;
 
   float spacing = 0.0f; ///< between the points on screen
@@ -33,7 +34,7 @@ struct MeasuredRadius
     , unfinished(!leaf || drawn < points)
   {
     const float measured = std::min(row.splatRadius, mostSpacings * row.spacing);
-    const bool strays = row.parent == noNode && points < fewestOfSurface;
+    const bool strays = leaf && row.parent == noNode && points < fewestOfSurface;
     closing = strays ? 0.0f : measured > 0.0f ? measured * radiusScale : spacing;
   }
 };

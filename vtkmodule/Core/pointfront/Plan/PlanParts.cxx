@@ -22,8 +22,10 @@ PlanPart partOf(const ResolvedStyle& style)
 
 bool isComposed(const FramePlan& plan)
 {
-  return std::any_of(plan.batches.begin(), plan.batches.end(),
-    [](const DrawBatch& batch) { return batch.style->lens >= 0 || batch.style->group > 0; });
+  const auto isApart = [](const DrawBatch& batch)
+  { return batch.style->lens >= 0 || batch.style->group > 0; };
+  return std::any_of(plan.batches.begin(), plan.batches.end(), isApart) ||
+    std::any_of(plan.standIns.begin(), plan.standIns.end(), isApart);
 }
 
 std::vector<PlanPart> partsOf(const FramePlan& plan)

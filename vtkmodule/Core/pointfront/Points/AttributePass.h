@@ -71,6 +71,9 @@ public:
   /// Faults that it met and survived: full sentences that count what was lost. Called after
   /// apply(), and again after the sources have been read; a repeated sentence is told once.
   virtual std::vector<std::string> findings() const { return {}; }
+  /// Whether findings() are of the inputs, not of their points: who builds a cloud in parts meets
+  /// the same sentences in each.
+  virtual bool findsInputs() const { return false; }
 };
 
 using AttributePasses = std::vector<std::unique_ptr<AttributePass>>; ///< in the order they run in

@@ -1,5 +1,6 @@
 #include "pointfront/Query/StoredPoints.h"
 
+#include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/ChosenColumns.h"
 #include "pointfront/Store/PreviewRecord.h"
 
@@ -37,7 +38,8 @@ bool hasDeepColours(const AttributeSchema& schema)
 }
 } // namespace
 
-Result<std::unique_ptr<PointSource>> StoredPoints::open(std::shared_ptr<const StoredCloud> cloud)
+Result<std::unique_ptr<PointSource>> StoredPoints::open(
+  std::shared_ptr<const StoredCloud> cloud, const Bounds* box)
 {
   if (previewRecordOf(cloud->description().metadata))
   {
@@ -45,15 +47,26 @@ Result<std::unique_ptr<PointSource>> StoredPoints::open(std::shared_ptr<const St
       cloud->description().path +
         ": is the preview of a build, with a part of the points; wait for the store");
   }
-  Result<QueryPlan> plan = QueryPlan::make(*cloud, {});
+  PointQuery query;
+  if (box != nullptr)
+  {
+    const auto region = BoxRegion::make(*box);
+    if (!region)
+    {
+      return region.error();
+    }
+    query.regions.push_back(*region);
+  }
+  Result<QueryPlan> plan = QueryPlan::make(*cloud, query);
   if (!plan)
   {
     return plan.error();
   }
-  return std::unique_ptr<PointSource>(new StoredPoints(std::move(cloud), std::move(*plan)));
+  return std::unique_ptr<PointSource>(
+    new StoredPoints(std::move(cloud), std::move(*plan), box == nullptr));
 }
 
-StoredPoints::StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan plan)
+StoredPoints::StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan plan, bool whole)
   : cloud_(std::move(cloud))
   , plan_(std::move(plan))
   , columns_(ChosenColumns::ofInput(cloud_->description()).columns)
@@ -69,7 +82,10 @@ StoredPoints::StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan p
   }
   description_.format = store.structure;
   description_.pointCount = plan_.mostPoints();
-  description_.headerPointCount = store.pointCount;
+  if (whole) // nobody has promised the number of a part
+  {
+    description_.headerPointCount = store.pointCount;
+  }
   description_.declaredBounds = store.bounds;
   description_.grid = store.grid;
   description_.schema = plan_.schema();

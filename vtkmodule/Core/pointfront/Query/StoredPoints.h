@@ -1,5 +1,6 @@
 #pragma once
 
+#include "pointfront/Base/Bounds.h"
 #include "pointfront/Points/PointSource.h"
 #include "pointfront/Query/QueryPlan.h"
 #include "pointfront/Store/StoredCloud.h"
@@ -10,7 +11,8 @@ namespace pointfront
 {
 
 /// The points of the input that a stored cloud holds, a chunk for each node: each once, on the
-/// cloud's own grid, without representatives and without the radius of these.
+/// cloud's own grid, without representatives and without the radius of these. With a box only the
+/// nodes that reach into it, and all of their points.
 /// Metadata  the cloud's, as its own source gave it.
 /// Order     of the tree: what needs the order of a scan refuses it.
 class StoredPoints final : public PointSource
@@ -18,7 +20,8 @@ class StoredPoints final : public PointSource
 public:
   /// Errors  of the node table; BadArgument for the preview of a build, which has a part of the
   ///         points.
-  static Result<std::unique_ptr<PointSource>> open(std::shared_ptr<const StoredCloud> cloud);
+  static Result<std::unique_ptr<PointSource>> open(
+    std::shared_ptr<const StoredCloud> cloud, const Bounds* box = nullptr);
 
   const SourceDescription& description() const override { return description_; }
   std::uint64_t chunkCount() const override { return plan_.nodeCount(); }
@@ -30,7 +33,7 @@ public:
   Result<void> readSteps(std::uint64_t chunk, PointBatch& batch) const override;
 
 private:
-  StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan plan);
+  StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan plan, bool whole);
   Result<NodeColumns> node(std::uint64_t chunk) const;
 
   std::shared_ptr<const StoredCloud> cloud_;

@@ -2,6 +2,7 @@
 
 #include "pointfront/Codec/ByteStream.h"
 
+#include <cstring>
 #include <numeric>
 
 namespace pointfront
@@ -43,11 +44,42 @@ void BlockDirectory::addBlock(std::uint32_t bytes, std::uint32_t checksum, Block
 void BlockDirectory::addNode(const BlockDirectory& other, std::uint32_t node)
 {
   addNode(other.origin(node), other.offsets_[node]); // with the mark of its file
-  for (std::uint32_t b = 0; b < blocksPerNode_; ++b)
+  const auto append = [&](auto& own, const auto& theirs)
   {
-    const Block from = other.block(node, b);
-    addBlock(from.bytes, from.checksum, from.codec);
+    const auto first = theirs.begin() + static_cast<std::ptrdiff_t>(node) * blocksPerNode_;
+    own.insert(own.end(), first, first + blocksPerNode_);
+  };
+  append(sizes_, other.sizes_);
+  append(checksums_, other.checksums_);
+  append(codecs_, other.codecs_);
+}
+
+void BlockDirectory::reserve(std::size_t nodes)
+{
+  origins_.reserve(nodes);
+  offsets_.reserve(nodes);
+  sizes_.reserve(nodes * blocksPerNode_);
+  checksums_.reserve(nodes * blocksPerNode_);
+  codecs_.reserve(nodes * blocksPerNode_);
+}
+
+std::byte* BlockDirectory::putRecord(std::uint32_t node, std::byte* target) const
+{
+  const auto put = [&target](const auto& value)
+  {
+    std::memcpy(target, &value, sizeof value);
+    target += sizeof value;
+  };
+  put(origins_[node]);
+  put(offsets_[node]); // with the mark of its file
+  const std::size_t first = std::size_t(node) * blocksPerNode_;
+  for (std::size_t b = first; b < first + blocksPerNode_; ++b)
+  {
+    put(sizes_[b]);
+    put(checksums_[b]);
+    put(codecs_[b]);
   }
+  return target;
 }
 
 void BlockDirectory::addElsewhere(const BlockDirectory& other)

@@ -36,6 +36,7 @@ public:
   void addBlock(std::uint32_t bytes, std::uint32_t checksum, BlockCodec codec);
   /// Appends a node of another directory.
   void addNode(const BlockDirectory& other, std::uint32_t node);
+  void reserve(std::size_t nodes);
   /// Appends all nodes of another directory as nodes whose payload lies in that other file.
   void addElsewhere(const BlockDirectory& other);
 
@@ -48,6 +49,14 @@ public:
   bool isElsewhere(std::uint32_t node) const { return (offsets_[node] & elsewhereBit) != 0; }
   std::uint64_t payloadBytes(std::uint32_t node) const;
   Block block(std::uint32_t node, std::uint32_t block) const;
+
+  /// Puts the facts that a file of version 2 and later has of a node, recordBytes() of them; its
+  /// checksum follows.
+  std::byte* putRecord(std::uint32_t node, std::byte* target) const;
+  static constexpr std::size_t recordBytes(std::uint32_t blocksPerNode)
+  {
+    return 3 * 8 + 8 + std::size_t(9) * blocksPerNode;
+  }
 
   /// The section's bytes: origins, offsets, sizes, checksums, codecs, each as one array.
   std::vector<std::byte> encode() const;

@@ -4,6 +4,7 @@
 #include "pointfront/Store/StoreFormat.h"
 
 #include <cmath>
+#include <numeric>
 
 namespace pointfront
 {
@@ -115,8 +116,8 @@ bool getMetadata(ByteReader& in, StoreDescription& description)
     {
       return false;
     }
-    record.payload.resize(static_cast<std::size_t>(size));
-    in.getBytes(record.payload.data(), record.payload.size());
+    const std::byte* const payload = in.getBytes(static_cast<std::size_t>(size));
+    record.payload.assign(payload, payload + size);
     description.metadata.push_back(std::move(record));
   }
   return in.ok();
@@ -188,6 +189,9 @@ std::vector<std::byte> encodeDescription(const StoredDescription& stored, std::u
 {
   const StoreDescription& d = stored.description;
   ByteWriter out;
+  out.reserve(4096 +
+    std::accumulate(d.metadata.begin(), d.metadata.end(), std::size_t(0),
+      [](std::size_t sum, const MetadataRecord& record) { return sum + record.payload.size(); }));
   putVector(out, d.grid.scale);
   putVector(out, d.grid.offset);
   putVector(out, stored.gridBounds.low);
@@ -224,7 +228,7 @@ std::vector<std::byte> encodeDescription(const StoredDescription& stored, std::u
   {
     out.put(d.splatRadiusBase);
   }
-  return out.bytes();
+  return out.take();
 }
 
 std::optional<StoredDescription> decodeDescription(

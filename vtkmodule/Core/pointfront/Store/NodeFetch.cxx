@@ -149,43 +149,4 @@ std::vector<Result<FetchedNode>> PointStore::fetchAll(
   return results;
 }
 
-Result<EncodedNode> PointStore::encodedNode(NodeIndex node) const
-{
-  ColumnSelection all(content_->description.schema.size());
-  std::iota(all.begin(), all.end(), 0);
-  const Result<FetchedNode> fetched = fetch(node, all);
-  if (!fetched)
-  {
-    return fetched.error();
-  }
-  const Result<NodePayload> payload = content_->directory->decode(node, fetched->runs[0]);
-  if (!payload)
-  {
-    return payload.error();
-  }
-  EncodedNode encoded;
-  encoded.origin = payload->origin;
-  encoded.pointCount = payload->pointCount;
-  const BlockRuns wanted(*payload, all);
-  auto bytes = fetched->runs.begin() + 1;
-  for (auto run = wanted.runs.begin(); run != wanted.runs.end(); ++run, ++bytes)
-  {
-    for (std::size_t b = run->first; b < run->end; ++b)
-    {
-      const BlockDirectory::Block& block = wanted.blocks[b];
-      const std::byte* const begin = bytes->data.get() + (block.offset - run->offset);
-      if (!matchesChecksum(begin, block.bytes, block.checksum))
-      {
-        return corruptStore(content_->fileOf(*payload).path(), block.offset,
-          "node " + std::to_string(node) + ", block " + std::to_string(b) +
-            ": the checksum does not match");
-      }
-      EncodedNode::Block& target = b == 0 ? encoded.positions : encoded.columns.emplace_back();
-      target = { { begin, begin + block.bytes }, static_cast<std::uint8_t>(block.codec),
-        block.checksum };
-    }
-  }
-  return encoded;
-}
-
 } // namespace pointfront

@@ -89,6 +89,7 @@ void encodeNodePage(const Node* rows, std::uint32_t count, std::uint32_t page, s
 {
   assert(count > 0 && count <= nodePageRows);
   ByteWriter out;
+  out.reserve(nodePageBytes);
   for (std::uint32_t r = 0; r < count; ++r)
   {
     encodeNodeRow(rows[r], NodeRowForm::WithSplatRadius, out);

@@ -26,6 +26,7 @@ constexpr std::uint32_t withoutCodes = 0;
 constexpr std::uint32_t withCodes = 1;
 
 constexpr ValueRange nothing{ infinity, -infinity };
+constexpr NodeRanges::Codes codesOfNothing{ 1, 0, 1, 0 }; ///< those of putRangeCodes()
 
 /// One in `step`, in no rhythm that the order of nodes could have.
 bool isSampled(std::size_t node, std::size_t step)
@@ -67,12 +68,13 @@ void addGapEnds(const std::vector<double>& bounds, std::set<double>& marks)
 /// Values that ranges are rounded outwards to: all bounds of nodes where there are 256 at most,
 /// else the ends of gaps and others with equally many values between, so that outliers take no more
 /// than their share.
-std::vector<double> chooseMarks(const std::vector<ValueRange>& own)
+std::vector<double> chooseMarks(
+  const std::vector<ValueRange>& own, const std::vector<NodeIndex>& filled)
 {
   const std::size_t step = own.size() / mostSampled + 1;
   ValueRange all = nothing;
   std::vector<double> bounds;
-  for (std::size_t i = 0; i < own.size(); ++i)
+  for (const NodeIndex i : filled)
   {
     if (!own[i].empty())
     {
@@ -113,14 +115,14 @@ void putChecksum(ByteWriter& out, std::size_t begin)
 
 /// Marks with their checksum, then chunks of codes with theirs. True when there are codes.
 bool putComponent(const std::vector<ValueRange>& own, const std::vector<ValueRange>& below,
-  const std::vector<double>& marks, ByteWriter& out)
+  const std::vector<NodeIndex>& filled, const std::vector<double>& marks, ByteWriter& out)
 {
   const std::size_t begin = out.size();
   out.putBytes(marks.data(), marks.size() * sizeof(double));
   putChecksum(out, begin);
-  std::vector<NodeRanges::Codes> codes(own.size());
-  bool differ = false;
-  for (std::size_t i = 0; i < own.size(); ++i)
+  std::vector<NodeRanges::Codes> codes(own.size(), codesOfNothing);
+  bool differ = filled.size() < own.size();
+  for (const NodeIndex i : filled)
   {
     putRangeCodes(own[i], marks, &codes[i][0]);
     putRangeCodes(below[i], marks, &codes[i][2]);
@@ -194,23 +196,50 @@ NodeRangesWriter::NodeRangesWriter(const AttributeSchema& schema)
   }
 }
 
-void NodeRangesWriter::add(const EncodedNode& node)
+void NodeRangesWriter::add(const GridBounds& bounds, const std::vector<ColumnRange>& ranges)
 {
   for (int axis = 0; axis < 3; ++axis)
   {
-    components_[static_cast<std::size_t>(axis)].add(node.bounds.empty()
+    components_[static_cast<std::size_t>(axis)].add(bounds.empty()
         ? nothing
-        : ValueRange{ static_cast<double>(node.bounds.low[axis]),
-            static_cast<double>(node.bounds.high[axis]) });
+        : ValueRange{
+            static_cast<double>(bounds.low[axis]), static_cast<double>(bounds.high[axis]) });
   }
+  bool filled = !bounds.empty();
   std::size_t next = coordinateComponents;
-  for (const ColumnRange& column : node.ranges)
+  for (const ColumnRange& column : ranges)
   {
     for (const std::array<double, 2>& range : column.components)
     {
       components_[next++].add({ range[0], range[1] });
+      filled = filled || range[0] <= range[1];
     }
   }
+  filled_.push_back(filled);
+}
+
+/// Nodes that have ranges, or one below them that has, ascending.
+std::vector<NodeIndex> NodeRangesWriter::filledNodes(
+  const std::vector<Node>& nodes, const std::vector<std::uint32_t>& payloads) const
+{
+  std::vector<bool> marked(nodes.size());
+  for (std::size_t i = nodes.size(); i-- > 0;) // parents come before their children
+  {
+    marked[i] = marked[i] || filled_[payloads[i]];
+    if (marked[i] && nodes[i].parent != noNode)
+    {
+      marked[nodes[i].parent] = true;
+    }
+  }
+  std::vector<NodeIndex> filled;
+  for (NodeIndex i = 0; i < nodes.size(); ++i)
+  {
+    if (marked[i])
+    {
+      filled.push_back(i);
+    }
+  }
+  return filled;
 }
 
 std::vector<std::byte> NodeRangesWriter::encode(
@@ -219,29 +248,30 @@ std::vector<std::byte> NodeRangesWriter::encode(
   ByteWriter directory;
   ByteWriter parts;
   const std::size_t begin = components_.size() * entryBytes + 4;
-  std::vector<ValueRange> own(nodes.size());
-  std::vector<ValueRange> below(nodes.size());
+  std::vector<ValueRange> own(nodes.size(), nothing);
+  std::vector<ValueRange> below(nodes.size(), nothing);
+  const std::vector<NodeIndex> filled = filledNodes(nodes, payloads);
   for (const Values& values : components_)
   {
-    for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (const NodeIndex i : filled)
     {
       below[i] = own[i] = values.at(payloads[i]);
     }
-    for (std::size_t i = nodes.size(); i-- > 0;) // parents come before their children
+    for (auto i = filled.rbegin(); i != filled.rend(); ++i) // parents come before their children
     {
-      if (nodes[i].parent != noNode)
+      if (const NodeIndex parent = nodes[*i].parent; parent != noNode)
       {
-        below[nodes[i].parent] = united(below[nodes[i].parent], below[i]);
+        below[parent] = united(below[parent], below[*i]);
       }
     }
-    const std::vector<double> marks = chooseMarks(own);
+    const std::vector<double> marks = chooseMarks(own, filled);
     directory.put(std::uint64_t(begin + parts.size()));
     directory.put(static_cast<std::uint32_t>(marks.size()));
-    directory.put(putComponent(own, below, marks, parts) ? withCodes : withoutCodes);
+    directory.put(putComponent(own, below, filled, marks, parts) ? withCodes : withoutCodes);
   }
   putChecksum(directory, 0);
   directory.putBytes(parts.bytes().data(), parts.size());
-  return directory.bytes();
+  return directory.take();
 }
 
 struct NodeRangesFile::Part

@@ -26,13 +26,15 @@ class NodeRangesWriter
 public:
   explicit NodeRangesWriter(const AttributeSchema& schema);
 
-  /// Adds the ranges of the next payload.
-  void add(const EncodedNode& node);
+  /// Adds bounds and ranges of the points of the next payload.
+  void add(const GridBounds& bounds, const std::vector<ColumnRange>& ranges);
   /// The section of a sound table; payloads[i] belongs to nodes[i].
   std::vector<std::byte> encode(
     const std::vector<Node>& nodes, const std::vector<std::uint32_t>& payloads) const;
 
 private:
+  std::vector<NodeIndex> filledNodes(
+    const std::vector<Node>& nodes, const std::vector<std::uint32_t>& payloads) const;
   /// Low and high of each payload in turn; floats where they hold every value of the type.
   struct Values
   {
@@ -44,6 +46,7 @@ private:
     ValueRange at(std::uint32_t payload) const;
   };
   std::vector<Values> components_;
+  std::vector<bool> filled_; ///< by payload: there is a range that is not empty
 };
 
 /// The section in a file: it is read only when somebody asks for it.

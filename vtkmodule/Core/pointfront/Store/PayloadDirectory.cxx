@@ -257,28 +257,17 @@ Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const Byt
     file, section.offset, blocks, payloadEndOf(footer), bytesElsewhere));
 }
 
-std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory)
+std::vector<std::byte> encodePayloadRecords(
+  const BlockDirectory& directory, const std::vector<std::uint32_t>& nodes)
 {
-  std::vector<std::byte> bytes;
-  bytes.reserve(directory.nodeCount() * payloadRecordBytes(directory.blocksPerNode()));
-  for (std::uint32_t node = 0; node < directory.nodeCount(); ++node)
+  std::vector<std::byte> bytes(nodes.size() * payloadRecordBytes(directory.blocksPerNode()));
+  std::byte* record = bytes.data();
+  for (const std::uint32_t node : nodes)
   {
-    ByteWriter out;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      out.put(directory.origin(node)[axis]);
-    }
-    out.put(
-      directory.offset(node) | (directory.isElsewhere(node) ? BlockDirectory::elsewhereBit : 0u));
-    for (std::uint32_t b = 0; b < directory.blocksPerNode(); ++b)
-    {
-      const BlockDirectory::Block block = directory.block(node, b);
-      out.put(block.bytes);
-      out.put(block.checksum);
-      out.put(static_cast<std::uint8_t>(block.codec));
-    }
-    out.put(checksumOf(out.bytes().data(), out.size()));
-    bytes.insert(bytes.end(), out.bytes().begin(), out.bytes().end());
+    std::byte* const end = directory.putRecord(node, record);
+    const std::uint32_t checksum = checksumOf(record, static_cast<std::size_t>(end - record));
+    std::memcpy(end, &checksum, sizeof checksum);
+    record = end + sizeof checksum;
   }
   return bytes;
 }

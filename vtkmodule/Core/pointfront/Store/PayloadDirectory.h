@@ -23,6 +23,13 @@ struct NodePayload
   std::vector<BlockDirectory::Block> blocks;
 };
 
+/// The payload of a node as it lies in a store.
+struct StoredPayload
+{
+  NodePayload is;
+  const std::byte* bytes = nullptr; ///< all its blocks, one after another
+};
+
 /// The blocks of one node that are wanted, the positions first, and the runs of neighbours among
 /// them: a run is read as a whole.
 struct BlockRuns
@@ -65,10 +72,11 @@ public:
 /// Bytes of a node's record from version 2 on: origin, offset, blocks, checksum.
 constexpr std::size_t payloadRecordBytes(std::uint32_t blocksPerNode)
 {
-  return 3 * 8 + 8 + std::size_t(9) * blocksPerNode + 4;
+  return BlockDirectory::recordBytes(blocksPerNode) + 4;
 }
 
-/// The section of version 2: a record for each node.
-std::vector<std::byte> encodePayloadRecords(const BlockDirectory& directory);
+/// The section of version 2: a record for each of those nodes of a directory.
+std::vector<std::byte> encodePayloadRecords(
+  const BlockDirectory& directory, const std::vector<std::uint32_t>& nodes);
 
 } // namespace pointfront

@@ -9,8 +9,6 @@
 namespace pointfront
 {
 
-struct EncodedNode;
-
 /// A `.pfront` file, open for reading. The format: docs/formats/pfront.md.
 /// Threads    all functions are safe from any thread (positional reads, no shared cursor).
 /// Errors     open: NotFound, Unreadable, BadFormat (not a store), Unsupported (a newer version, or
@@ -50,14 +48,10 @@ public:
 
   Result<std::shared_ptr<const NodeRanges>> nodeRanges(
     std::uint32_t component, NodeIndex most = noNode) const override;
-  /// The payload of a node as it lies here, to be appended to another store of the same schema; the
-  /// caller knows its bounds and ranges.
-  /// Errors  those of fetch(); Corrupt.
-  Result<EncodedNode> encodedNode(NodeIndex node) const;
-
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:
+  friend class PayloadCopy;
   PointStore();
   /// All but the file that payloads may lie in elsewhere.
   static Result<std::shared_ptr<PointStore>> openTables(const std::string& path);

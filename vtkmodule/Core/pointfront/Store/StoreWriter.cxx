@@ -12,9 +12,11 @@
 #include "pointfront/Store/StoreAssembly.h"
 #include "pointfront/Store/StoreFormat.h"
 
+#include <algorithm>
 #include <cassert>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 namespace pointfront
 {
@@ -66,15 +68,20 @@ public:
   Result<void> begin() { return put(std::vector<std::byte>(storeHeaderBytes)); }
 
   Result<PayloadId> append(const EncodedNode& node) override;
-  Result<void> commit(const StoreDescription& description, const std::vector<Node>& nodes,
+  Result<PayloadId> append(const StoredPayload& payload, const GridBounds& bounds,
+    const std::vector<ColumnRange>& ranges) override;
+  Result<void> commit(StoreDescription description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) override;
   std::uint64_t bytesWritten() const override { return end_; }
   Result<WrittenPayloads> written() override;
 
 private:
   void refer(WrittenPayloads elsewhere);
-  Result<void> put(const std::vector<std::byte>& bytes);
+  Result<void> put(const std::vector<std::byte>& bytes) { return put(bytes.data(), bytes.size()); }
+  Result<void> put(const std::byte* bytes, std::size_t size);
   Result<void> flush();
+  void takeFacts(
+    std::uint32_t points, const GridBounds& bounds, const std::vector<ColumnRange>& ranges);
   Result<void> putBlock(const EncodedNode::Block& block);
   Result<void> putWhole(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> putParts(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
@@ -83,11 +90,10 @@ private:
     const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads) const;
   std::string nodesFault(const StoreDescription& description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) const;
-  Result<BlockDirectory> directoryOf(const std::vector<PayloadId>& payloads) const;
-  StoredDescription describe(const StoreDescription& description, const std::vector<Node>& nodes,
+  StoredDescription describe(StoreDescription description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots) const;
-  Result<void> putPayloadFacts(const std::vector<Node>& nodes,
-    const std::vector<PayloadId>& payloads, const BlockDirectory& directory, StoreFooter& footer);
+  Result<void> putPayloadFacts(
+    const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads, StoreFooter& footer);
 
   std::unique_ptr<OutputFile> file_;
   AttributeSchema schema_;
@@ -135,21 +141,21 @@ Result<WrittenPayloads> FileStoreWriter::written()
   return result;
 }
 
-Result<void> FileStoreWriter::put(const std::vector<std::byte>& bytes)
+Result<void> FileStoreWriter::put(const std::byte* bytes, std::size_t size)
 {
-  if (buffer_.size() + bytes.size() > writeBufferBytes)
+  if (buffer_.size() + size > writeBufferBytes)
   {
     if (Result<void> done = flush(); !done)
     {
       return done;
     }
   }
-  end_ += bytes.size();
-  if (bytes.size() > writeBufferBytes)
+  end_ += size;
+  if (size > writeBufferBytes)
   {
-    return file_->append(bytes.data(), bytes.size());
+    return file_->append(bytes, size);
   }
-  buffer_.insert(buffer_.end(), bytes.begin(), bytes.end());
+  buffer_.insert(buffer_.end(), bytes, bytes + size);
   return {};
 }
 
@@ -188,27 +194,56 @@ Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
     {
       return done.error();
     }
-    addRange(ranges_[c], node.ranges[c]);
   }
-  pointCounts_.push_back(node.pointCount);
-  nodeRanges_.add(node);
-  bounds_.add(node.bounds);
+  takeFacts(node.pointCount, node.bounds, node.ranges);
   return id;
+}
+
+Result<StoreWriter::PayloadId> FileStoreWriter::append(
+  const StoredPayload& payload, const GridBounds& bounds, const std::vector<ColumnRange>& ranges)
+{
+  assert(payload.is.blocks.size() == schema_.size() + 1);
+  const auto id = static_cast<PayloadId>(pointCounts_.size());
+  payloads_.addNode(payload.is.origin, end_);
+  std::size_t size = 0;
+  for (const BlockDirectory::Block& block : payload.is.blocks)
+  {
+    payloads_.addBlock(block.bytes, block.checksum, block.codec);
+    size += block.bytes;
+  }
+  if (Result<void> done = put(payload.bytes, size); !done)
+  {
+    return done.error();
+  }
+  takeFacts(payload.is.pointCount, bounds, ranges);
+  return id;
+}
+
+void FileStoreWriter::takeFacts(
+  std::uint32_t points, const GridBounds& bounds, const std::vector<ColumnRange>& ranges)
+{
+  for (std::size_t c = 0; c < ranges.size(); ++c)
+  {
+    addRange(ranges_[c], ranges[c]);
+  }
+  pointCounts_.push_back(points);
+  nodeRanges_.add(bounds, ranges);
+  bounds_.add(bounds);
 }
 
 std::string FileStoreWriter::payloadFault(
   const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads) const
 {
-  if (nodes.size() != payloads.size() || nodes.size() != pointCounts_.size())
+  if (nodes.size() != payloads.size())
   {
     return std::to_string(nodes.size()) + " nodes, " + std::to_string(payloads.size()) +
       " payloads named, " + std::to_string(pointCounts_.size()) + " appended";
   }
-  std::vector<bool> used(payloads.size(), false);
+  std::vector<bool> used(pointCounts_.size(), false);
   for (std::size_t i = 0; i < nodes.size(); ++i)
   {
     const PayloadId id = payloads[i];
-    if (id >= used.size() || used[id])
+    if (id >= used.size() || (used[id] && pointCounts_[id] > 0))
     {
       return "node " + std::to_string(i) + ": its payload does not exist or is another node's";
     }
@@ -219,7 +254,10 @@ std::string FileStoreWriter::payloadFault(
         " points, its payload " + std::to_string(pointCounts_[id]);
     }
   }
-  return {};
+  const auto unused = std::find(used.begin(), used.end(), false);
+  return unused == used.end()
+    ? std::string()
+    : "payload " + std::to_string(unused - used.begin()) + " is of no node";
 }
 
 std::string FileStoreWriter::nodesFault(const StoreDescription& description,
@@ -239,74 +277,54 @@ std::string FileStoreWriter::nodesFault(const StoreDescription& description,
   return fault;
 }
 
-/// The blocks of the payloads in the order of the nodes.
-Result<BlockDirectory> FileStoreWriter::directoryOf(const std::vector<PayloadId>& payloads) const
-{
-  BlockDirectory directory(payloads_.blocksPerNode());
-  for (const PayloadId id : payloads)
-  {
-    directory.addNode(payloads_, id);
-  }
-  bool unknownCodec = false;
-  const std::string fault =
-    directory.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec);
-  if (!fault.empty())
-  {
-    return wrongTable(file_->path(), fault);
-  }
-  return directory;
-}
-
 /// With what only the appended nodes tell.
-StoredDescription FileStoreWriter::describe(const StoreDescription& description,
+StoredDescription FileStoreWriter::describe(StoreDescription description,
   const std::vector<Node>& nodes, const std::vector<NodeIndex>& roots) const
 {
-  StoredDescription stored{ description, bounds_, roots };
+  const Refinement refinement = description.refinement;
+  StoredDescription stored{ std::move(description), bounds_, roots };
   stored.description.schema = schema_;
   stored.description.ranges = ranges_;
-  countLayers(BorrowedTable(nodes, description.refinement), stored.description);
+  countLayers(BorrowedTable(nodes, refinement), stored.description);
   return stored;
 }
 
 /// Writes facts of payloads beside their places: the ranges of those that are here, the
 /// file that holds those that are not.
-Result<void> FileStoreWriter::putPayloadFacts(const std::vector<Node>& nodes,
-  const std::vector<PayloadId>& payloads, const BlockDirectory& directory, StoreFooter& footer)
+Result<void> FileStoreWriter::putPayloadFacts(
+  const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads, StoreFooter& footer)
 {
   if (nameElsewhere_.empty())
   {
     return putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
   }
   const PayloadElsewhere elsewhere =
-    describeElsewhere({ nameElsewhere_, nameMeanwhile_, bytesElsewhere_, {} }, directory);
+    describeElsewhere({ nameElsewhere_, nameMeanwhile_, bytesElsewhere_, {} }, payloads_);
   return putWhole(SectionKind::Elsewhere, encodeElsewhere(elsewhere), footer);
 }
 
-Result<void> FileStoreWriter::commit(const StoreDescription& description,
-  const std::vector<Node>& nodes, const std::vector<NodeIndex>& roots,
-  const std::vector<PayloadId>& payloads)
+Result<void> FileStoreWriter::commit(StoreDescription description, const std::vector<Node>& nodes,
+  const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads)
 {
   assert(description.schema == schema_);
-  const std::string fault = nodesFault(description, nodes, roots, payloads);
+  std::string fault = nodesFault(description, nodes, roots, payloads);
+  bool unknownCodec = false;
+  fault = fault.empty() ? payloads_.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec)
+                        : fault;
   if (!fault.empty())
   {
     return wrongTable(file_->path(), fault);
   }
-  const Result<BlockDirectory> directory = directoryOf(payloads);
-  if (!directory)
-  {
-    return directory.error();
-  }
-  const StoredDescription stored = describe(description, nodes, roots);
-  features_ = collectionRecordIn(description.metadata) != nullptr ? headsOfCollection : 0;
+  const StoredDescription stored = describe(std::move(description), nodes, roots);
+  features_ = collectionRecordIn(stored.description.metadata) != nullptr ? headsOfCollection : 0;
   StoreFooter footer;
-  footer.pointCount = originalPointsOf(nodes, description.refinement);
+  footer.pointCount = originalPointsOf(nodes, stored.description.refinement);
   footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
   footer.columnCount = static_cast<std::uint32_t>(schema_.size());
   Result<void> done = putParts(SectionKind::NodeTable, encodeNodePages(nodes), footer);
   if (done)
   {
-    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(*directory), footer);
+    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(payloads_, payloads), footer);
   }
   if (done)
   {
@@ -314,7 +332,7 @@ Result<void> FileStoreWriter::commit(const StoreDescription& description,
   }
   if (done)
   {
-    done = putPayloadFacts(nodes, payloads, *directory, footer);
+    done = putPayloadFacts(nodes, payloads, footer);
   }
   return done ? finish(footer) : done;
 }

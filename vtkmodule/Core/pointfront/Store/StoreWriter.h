@@ -39,6 +39,8 @@ struct EncodedNode
 /// Pure: the same points give the same bytes, on any thread.
 EncodedNode encodeNode(const NodeColumns& points, const AttributeSchema& schema);
 
+struct StoredPayload;
+
 /// The one value that a column has in all points, of Attribute::bytes(); nothing: they differ.
 using ColumnConstants = std::vector<std::optional<std::vector<std::byte>>>;
 /// The same, with `constants` for each column; points.columns of constant ones may be empty.
@@ -79,13 +81,19 @@ public:
   /// Appends one node's payload; the id names it in commit().
   virtual Result<PayloadId> append(const EncodedNode& node) = 0;
 
+  /// Appends the payload of a node of another store of the same schema as it lies there. The caller
+  /// knows bounds and ranges of its points.
+  virtual Result<PayloadId> append(const StoredPayload& payload, const GridBounds& bounds,
+    const std::vector<ColumnRange>& ranges) = 0;
+
   /// `nodes` is the whole table, breadth first, children neighbours, `roots` ascending;
-  /// payloads[i] belongs to nodes[i]. `description` gives grid, crs, structure, refinement,
+  /// payloads[i] belongs to nodes[i]; one without points may be that of several nodes.
+  /// `description` gives grid, crs, structure, refinement,
   /// schema, generator, metadata, and class and name of the layers; counts, bounds, ranges and
   /// sizes are computed here from what was appended.
   /// Errors  Unwritable; BadArgument when the table is not a hierarchy or does not match the
   ///         payloads, with the node and the reason. The store is then not written.
-  virtual Result<void> commit(const StoreDescription& description, const std::vector<Node>& nodes,
+  virtual Result<void> commit(StoreDescription description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) = 0;
 
   virtual std::uint64_t bytesWritten() const = 0;

@@ -12,7 +12,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,6 +72,10 @@ struct StoreDescription
   std::vector<std::string> warnings;
   /// A collection's: dates or names of its tiles' epochs, ascending; "" for tiles that have none.
   std::vector<std::string> epochs;
+  /// A collection's, where each epoch has trees of its own: the computed column that tells the
+  /// epoch of each point, and its values for `epochs`, in their order (EpochColumn).
+  std::optional<std::uint32_t> epochColumn;
+  std::vector<double> epochTimes;
 
   bool isComputed(std::size_t column) const
   {

@@ -29,6 +29,7 @@ LayerStyle LayerStyle::over(const LayerStyle& below) const
   style.rim = either(rim, below.rim);
   style.wall = either(wall, below.wall);
   style.where = either(where, below.where);
+  style.epoch = either(epoch, below.epoch);
   style.light = either(light, below.light);
   style.eyeDome = either(eyeDome, below.eyeDome);
   return style;

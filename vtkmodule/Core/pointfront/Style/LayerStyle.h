@@ -88,6 +88,8 @@ struct LayerStyle
   std::optional<Rgba8> rim; ///< silhouettes
   std::optional<std::array<Rgba8, 2>> wall; ///< solid: upper and lower end; else as the points
   std::optional<FilterExpression> where; ///< in the place of the default's
+  /// Only points of that epoch of a collection, besides `where`; "": those of tiles without one.
+  std::optional<std::string> epoch;
   std::optional<StyleLight> light; ///< else StyleSheet::shading's; spheres are lit
   std::optional<StyleEyeDome> eyeDome; ///< else StyleSheet::shading's
 
@@ -101,13 +103,13 @@ struct LayerStyle
       a.orientation == b.orientation && a.opacity == b.opacity && a.visible == b.visible &&
       a.errorFactor == b.errorFactor && a.budgetShare == b.budgetShare && a.blended == b.blended &&
       a.accuracy == b.accuracy && a.rim == b.rim && a.wall == b.wall && a.where == b.where &&
-      a.light == b.light && a.eyeDome == b.eyeDome;
+      a.epoch == b.epoch && a.light == b.light && a.eyeDome == b.eyeDome;
   }
   friend bool operator!=(const LayerStyle& a, const LayerStyle& b) { return !(a == b); }
 };
 
 /// The style without any setting: points that close the surface, in the colour that tells most.
-/// Every member but `wall`, `light` and `eyeDome` is set.
+/// Every member but `wall`, `epoch`, `light` and `eyeDome` is set.
 LayerStyle standardStyle();
 
 } // namespace pointfront

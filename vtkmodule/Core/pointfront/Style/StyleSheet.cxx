@@ -1,5 +1,7 @@
 #include "pointfront/Style/StyleSheet.h"
 
+#include "pointfront/Base/NearestName.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Points/EnclosingRadius.h"
 #include "pointfront/Style/ComponentName.h"
@@ -43,6 +45,39 @@ std::optional<std::uint32_t> normalColumn(const StoreDescription& store)
   return column && store.schema[*column].components == 3
     ? std::optional<std::uint32_t>(static_cast<std::uint32_t>(*column))
     : std::nullopt;
+}
+
+std::string listOf(const std::vector<std::string>& epochs)
+{
+  std::string list;
+  for (const std::string& epoch : epochs)
+  {
+    list += (list.empty() ? "" : ", ") + (epoch.empty() ? "one without a name" : epoch);
+  }
+  return list;
+}
+
+/// The condition that points of one epoch meet.
+Result<AttributeCondition> epochIs(const std::string& name, const StoreDescription& store)
+{
+  const auto found = std::find(store.epochs.begin(), store.epochs.end(), name);
+  if (store.epochColumn && found != store.epochs.end())
+  {
+    AttributeCondition condition;
+    condition.column = *store.epochColumn;
+    condition.values = { store.epochTimes[static_cast<std::size_t>(found - store.epochs.begin())] };
+    return condition;
+  }
+  const bool named = !store.epochs.empty() && !store.epochs.back().empty();
+  const auto asked = EpochAddress::of(store.path).epoch;
+  return makeError(Error::Kind::BadArgument,
+    store.path +
+      (!named ? " has no epochs; tiles of a collection have (collection add --epoch)"
+          : !store.epochColumn ? ": an older version wrote it, with several epochs in one tree; "
+                                 "'pointfront collection compact' makes a tree of each"
+          : asked              ? " shows one epoch alone: leave that out to see '" + name + "', too"
+                               : " has no epoch '" + name + "'; it has: " + listOf(store.epochs) +
+            didYouMean(name, store.epochs)));
 }
 
 /// A complete style with a store's columns.
@@ -189,7 +224,17 @@ private:
     {
       return placed(place_, "where", own.error());
     }
-    resolved_.filter = *common;
+    if (style_.epoch)
+    {
+      const Result<AttributeCondition> epoch = epochIs(*style_.epoch, store_);
+      if (!epoch)
+      {
+        return placed(place_, "epoch", epoch.error());
+      }
+      resolved_.filter.conditions.push_back(*epoch);
+    }
+    resolved_.filter.conditions.insert(
+      resolved_.filter.conditions.end(), common->conditions.begin(), common->conditions.end());
     resolved_.filter.conditions.insert(
       resolved_.filter.conditions.end(), own->conditions.begin(), own->conditions.end());
     return {};

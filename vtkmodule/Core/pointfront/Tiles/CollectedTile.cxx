@@ -223,6 +223,7 @@ CollectedTile CollectedTile::take(ByteReader& in)
     nodes = in.get<std::uint32_t>();
   }
   const std::size_t roots = takeCount(in, 64);
+  tile.roots.reserve(roots);
   for (std::size_t r = 0; r < roots; ++r)
   {
     tile.roots.push_back(rootOf(in));

@@ -3,7 +3,7 @@
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
-#include "pointfront/Tiles/NodeParts.h"
+#include "pointfront/Tiles/TileFetch.h"
 #include "pointfront/Tiles/TileRanges.h"
 
 #include <algorithm>
@@ -33,7 +33,7 @@ ValueRange both(const ValueRange& a, const ValueRange& b)
 }
 } // namespace
 
-Result<std::shared_ptr<const CollectionRecord>> CollectionCloud::recordOf(const PointStore& heads)
+Result<CollectionRecord> CollectionCloud::recordOf(const PointStore& heads)
 {
   const std::string& path = heads.description().path;
   const MetadataRecord* const bytes = collectionRecordIn(heads.description().metadata);
@@ -68,7 +68,7 @@ Result<std::shared_ptr<const CollectionRecord>> CollectionCloud::recordOf(const 
         "' is damaged: its heads and its list of tiles have other attributes; copy the "
         "file again or create it again");
   }
-  return std::make_shared<const CollectionRecord>(std::move(*record));
+  return std::move(*record);
 }
 
 Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::string& path)
@@ -81,12 +81,13 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
     return heads.error();
   }
   cloud->heads_ = std::move(*heads);
-  Result<std::shared_ptr<const CollectionRecord>> record = recordOf(*cloud->heads_);
-  if (!record)
+  Result<CollectionRecord> read = recordOf(*cloud->heads_);
+  if (!read)
   {
-    return record.error();
+    return read.error();
   }
-  cloud->tiles_ = std::make_shared<const CollectionTiles>(asked.file, *record);
+  const auto record = std::make_shared<const CollectionRecord>(std::move(*read));
+  cloud->tiles_ = std::make_shared<const CollectionTiles>(asked.file, record);
   Result<std::shared_ptr<const CollectionTable>> table =
     CollectionTable::make(asked.file, *cloud->heads_->hierarchy(), cloud->tiles_, asked.epoch);
   if (!table)
@@ -95,28 +96,33 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
   }
   cloud->table_ = std::move(*table);
   cloud->hierarchy_ = cloud->table_;
-  cloud->description_ = (*record)->whole;
+  cloud->description_ = record->whole;
   cloud->description_.path = path;
   cloud->description_.version = cloud->heads_->description().version;
-  cloud->description_.epochs = (*record)->epochs();
+  cloud->description_.epochs = record->epochs();
   if (asked.epoch)
   {
     cloud->describeEpoch(*asked.epoch);
   }
   cloud->description_.fileBytes += cloud->heads_->description().fileBytes;
-  for (const StoreDescription& kind : (*record)->kinds)
+  cloud->epochs_ = EpochColumn::of(cloud->table_, *record);
+  if (cloud->epochs_)
   {
-    Result<TileDescription> described = TileDescription::of(path, { &(*record)->whole, &kind }, {});
-    if (!described || !(described->whole.schema == (*record)->whole.schema))
+    cloud->epochs_->describe(cloud->description_);
+  }
+  for (const StoreDescription& kind : record->kinds)
+  {
+    Result<TileDescription> described = TileDescription::of(path, { &record->whole, &kind }, {});
+    if (!described || !(described->whole.schema == record->whole.schema))
     {
       return makeError(Error::Kind::Corrupt,
         "'" + path + "' is damaged: tiles have attributes that the whole lacks; create it again");
     }
     cloud->columns_.push_back(std::move(described->parts[1].columns));
   }
-  cloud->farTiles_ = std::any_of((*record)->tiles.begin(), (*record)->tiles.end(),
+  cloud->farTiles_ = std::any_of(record->tiles.begin(), record->tiles.end(),
     [](const CollectedTile& tile) { return isAddress(tile.is.address); });
-  raiseOpenFiles((*record)->tiles.size());
+  raiseOpenFiles(record->tiles.size());
   return std::shared_ptr<const CollectionCloud>(std::move(cloud));
 }
 
@@ -169,6 +175,12 @@ ReadCost CollectionCloud::readCost() const
   return own.far() || !farTiles_ ? own : farGuess;
 }
 
+/// The columns that heads and tiles have.
+ColumnSelection CollectionCloud::stored(const ColumnSelection& columns) const
+{
+  return epochs_ ? epochs_->others(columns) : columns;
+}
+
 std::size_t CollectionCloud::decodedBytes(
   NodeIndex, std::uint32_t points, const ColumnSelection& columns) const
 {
@@ -180,17 +192,19 @@ std::size_t CollectionCloud::storedBytes(NodeIndex node, const ColumnSelection& 
   const std::optional<CollectionTable::TileNode> at = table_->tileNodeOf(node);
   if (!at)
   {
-    return heads_->storedBytes(node, columns);
+    return heads_->storedBytes(node, stored(columns));
   }
   const CollectionTiles::Tile* const tile = tiles_->opened(at->tile);
   if (tile != nullptr)
   {
-    return tile->cloud->storedBytes(at->node, tile->part.columns.own(columns));
+    return tile->cloud->storedBytes(at->node, tile->part.columns.own(stored(columns)));
   }
   constexpr std::size_t commonPacking = 3; // airborne clouds take a third of their decoded bytes
   Node row;
   const bool known = node < table_->headCount() && table_->peek(node, row) == RowState::Here;
-  return known ? decodedBytesOf(row.pointCount, columns, description_.schema) / commonPacking : 0;
+  return known
+    ? decodedBytesOf(row.pointCount, stored(columns), description_.schema) / commonPacking
+    : 0;
 }
 
 Result<FetchedNode> CollectionCloud::wrapped(
@@ -253,9 +267,10 @@ std::vector<Result<FetchedNode>> CollectionCloud::fetchAll(
         continue;
       }
       asked.push_back(wanted[i]);
-      own.push_back(heads ? wanted[i]
+      const ColumnSelection columns = stored(wanted[i].columns);
+      own.push_back(heads ? WantedNode{ wanted[i].node, columns }
                           : WantedNode{ table_->tileNodeOf(wanted[i].node)->node,
-                              (*open)->part.columns.own(wanted[i].columns) });
+                              (*open)->part.columns.own(columns) });
     }
     if (open)
     {
@@ -296,11 +311,15 @@ Result<NodeColumns> CollectionCloud::decode(const FetchedNode& fetched) const
   result.describe(fetched.row);
   if (at)
   {
-    tile->part.columns.adapt(result, fetched.columns, description_.schema);
+    tile->part.columns.adapt(result, stored(fetched.columns), description_.schema);
     if (Result<void> placed = tile->part.placing.place(result, description_.path); !placed)
     {
       return placed.error();
     }
+  }
+  if (epochs_ && epochs_->isIn(fetched.columns))
+  {
+    epochs_->fill(result);
   }
   return result;
 }
@@ -336,6 +355,12 @@ ValueRange CollectionCloud::rangeOf(std::size_t tile, std::uint32_t component) c
 Result<std::shared_ptr<const NodeRanges>> CollectionCloud::nodeRanges(
   std::uint32_t component, NodeIndex most) const
 {
+  const AttributeSchema& schema = description_.schema;
+  const auto& epochs = description_.epochColumn;
+  if (epochs && component == rangeComponent(schema, *epochs, 0))
+  {
+    return epochRanges(most);
+  }
   const auto heads = heads_->nodeRanges(component);
   if (!heads)
   {
@@ -366,6 +391,17 @@ Result<std::shared_ptr<const NodeRanges>> CollectionCloud::nodeRanges(
   for (NodeIndex i = 0; i < std::min(count, most); ++i)
   {
     all.add(own[i], below[i]);
+  }
+  return all.together();
+}
+
+std::shared_ptr<const NodeRanges> CollectionCloud::epochRanges(NodeIndex most) const
+{
+  TileRanges all;
+  for (NodeIndex i = 0; i < std::min(table_->headCount(), most); ++i)
+  {
+    const double time = epochs_->timeOf(i);
+    all.add({ time, time }, { time, time });
   }
   return all.together();
 }

@@ -4,8 +4,10 @@
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Tiles/CollectionTable.h"
+#include "pointfront/Tiles/EpochColumn.h"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,7 +20,7 @@ namespace pointfront
 /// Opening     reads the collection's file alone. A tile is opened when somebody reads more of it
 ///             than its head; until then it may be missing.
 /// Points      those of all tiles, each once, in the columns and on the grid of the whole
-///             (TiledCloud has the rules).
+///             (TiledCloud has the rules), and one that is computed, of epochs (EpochColumn).
 /// Ranges      of nodes: those of groups, and of tiles as a whole. Nodes inside a tile may have any
 ///             value.
 /// Errors      open: those of PointStore; Unsupported: a newer version; NotFound: no such epoch. Of
@@ -32,7 +34,7 @@ public:
   /// range mean the same in each epoch.
   static Result<std::shared_ptr<const CollectionCloud>> open(const std::string& path);
   /// The record in a collection's open file.
-  static Result<std::shared_ptr<const CollectionRecord>> recordOf(const PointStore& heads);
+  static Result<CollectionRecord> recordOf(const PointStore& heads);
 
   const CollectionRecord& record() const { return tiles_->record(); }
   const CollectionTiles& tiles() const { return *tiles_; }
@@ -69,7 +71,9 @@ private:
   std::vector<Result<FetchedNode>> fetchOf(const StoredCloud& cloud,
     const std::vector<WantedNode>& own, const std::vector<WantedNode>& wanted,
     const ReadStop& stop) const;
+  ColumnSelection stored(const ColumnSelection& columns) const;
   ValueRange rangeOf(std::size_t tile, std::uint32_t component) const;
+  std::shared_ptr<const NodeRanges> epochRanges(NodeIndex most) const;
   void describeEpoch(const std::string& epoch);
 
   std::shared_ptr<const PointStore> heads_;
@@ -77,6 +81,7 @@ private:
   std::vector<TileColumns> columns_; ///< by kind
   std::shared_ptr<const CollectionTable> table_;
   std::shared_ptr<const Hierarchy> hierarchy_; ///< the same
+  std::optional<EpochColumn> epochs_;
   StoreDescription description_;
   bool farTiles_ = false;
 };

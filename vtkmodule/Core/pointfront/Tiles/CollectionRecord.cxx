@@ -32,9 +32,9 @@ std::optional<StoreDescription> descriptionOf(ByteReader& in)
   {
     return std::nullopt;
   }
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-  in.getBytes(bytes.data(), bytes.size());
-  std::optional<StoredDescription> stored = decodeDescription(bytes.data(), bytes.size());
+  const std::byte* const bytes = in.getBytes(static_cast<std::size_t>(size));
+  std::optional<StoredDescription> stored =
+    decodeDescription(bytes, static_cast<std::size_t>(size));
   if (!stored)
   {
     return std::nullopt;
@@ -96,6 +96,7 @@ HeadNode headOf(ByteReader& in, const AttributeSchema& whole)
       (*corner)[axis] = in.get<std::int64_t>();
     }
   }
+  head.ranges.reserve(whole.size() + 1);
   for (std::size_t c = 0; c <= whole.size(); ++c) // and that of the tile
   {
     ColumnRange& range = head.ranges.emplace_back();
@@ -174,6 +175,22 @@ std::vector<CollectionChange> historyOf(ByteReader& in)
     }
   }
   return history;
+}
+
+/// The bytes that a record takes, about.
+std::size_t roomFor(const CollectionRecord& record)
+{
+  constexpr std::size_t tileBytes = 240; // with its texts; ranges, layers and roots not
+  std::size_t bytes = std::size_t(1) << 16;
+  for (const CollectedTile& tile : record.tiles)
+  {
+    bytes += tileBytes + 16 * tile.ranges.size() + 12 * tile.layers.size() + 80 * tile.roots.size();
+  }
+  for (const HeadNode& head : record.heads)
+  {
+    bytes += 9 + (head.root ? 0 : 40 + 24 * head.ranges.size());
+  }
+  return bytes;
 }
 
 /// All that stands besides the description's own bytes.
@@ -264,6 +281,7 @@ std::vector<std::string> CollectionRecord::epochs() const
 std::vector<std::byte> CollectionRecord::encode() const
 {
   ByteWriter out;
+  out.reserve(roomFor(*this));
   out.put(epochs().size() > 1 ? newest : std::uint32_t(1));
   out.put(state);
   out.put(nextId);
@@ -284,7 +302,7 @@ std::vector<std::byte> CollectionRecord::encode() const
     putHead(out, head);
   }
   putHistory(out, history);
-  return out.bytes();
+  return out.take();
 }
 
 std::optional<CollectionRecord> CollectionRecord::decode(const std::byte* data, std::size_t size)
@@ -315,6 +333,7 @@ std::optional<CollectionRecord> CollectionRecord::decode(const std::byte* data, 
     record.kinds.push_back(std::move(*kind));
   }
   const std::size_t tiles = takeCount(in, 128);
+  record.tiles.reserve(tiles);
   for (std::size_t t = 0; t < tiles && in.ok(); ++t)
   {
     record.tiles.push_back(CollectedTile::take(in));
@@ -324,6 +343,7 @@ std::optional<CollectionRecord> CollectionRecord::decode(const std::byte* data, 
     }
   }
   const std::size_t heads = takeCount(in, 9);
+  record.heads.reserve(heads);
   for (std::size_t h = 0; h < heads && in.ok(); ++h)
   {
     record.heads.push_back(headOf(in, record.whole.schema));

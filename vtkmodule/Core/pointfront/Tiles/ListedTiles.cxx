@@ -3,8 +3,8 @@
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Threads/WaitingWork.h"
-#include "pointfront/Tiles/NodeParts.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
+#include "pointfront/Tiles/TileFetch.h"
 
 #include <algorithm>
 #include <atomic>

@@ -8,13 +8,28 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace pointfront
 {
 namespace
 {
-using Tiles = std::vector<const StoreDescription*>;
+/// A store, or several that are alike.
+struct DescribedTiles
+{
+  const StoreDescription* is = nullptr;
+  std::size_t count = 1;
+  double lengths = 0.0; ///< diagonals of their boxes, added up
+
+  const StoreDescription* operator->() const { return is; }
+};
+using Tiles = std::vector<DescribedTiles>;
+
+double diagonalOf(const Bounds& bounds)
+{
+  return bounds.empty() ? 0.0 : glm::length(bounds.size());
+}
 
 /// A tile as a source for commonSchema().
 class DescribedTile final : public PointSource
@@ -34,6 +49,12 @@ private:
   SourceDescription description_;
 };
 
+std::size_t countOf(const Tiles& tiles)
+{
+  return std::accumulate(tiles.begin(), tiles.end(), std::size_t(0),
+    [](std::size_t sum, const DescribedTiles& tile) { return sum + tile.count; });
+}
+
 std::string countOf(std::size_t some, std::size_t all)
 {
   return std::to_string(some) + " of " + std::to_string(all) + " stores";
@@ -41,14 +62,14 @@ std::string countOf(std::size_t some, std::size_t all)
 
 Result<void> addSums(StoreDescription& whole, const Tiles& tiles)
 {
-  const StoreDescription& first = *tiles.front();
+  const StoreDescription& first = *tiles.front().is;
   whole.structure = "tiles";
   whole.version = first.version;
   whole.refinement = first.refinement;
   whole.crsWkt = first.crsWkt;
   whole.metadata = first.metadata;
   whole.generator = first.generator;
-  for (const StoreDescription* tile : tiles)
+  for (const DescribedTiles& tile : tiles)
   {
     if (tile->refinement != first.refinement)
     {
@@ -71,9 +92,9 @@ Result<void> addSums(StoreDescription& whole, const Tiles& tiles)
 Result<std::vector<TileColumns>> chooseColumns(StoreDescription& whole, const Tiles& tiles)
 {
   std::vector<std::unique_ptr<PointSource>> sources;
-  for (const StoreDescription* tile : tiles)
+  for (const DescribedTiles& tile : tiles)
   {
-    sources.push_back(std::make_unique<DescribedTile>(*tile));
+    sources.push_back(std::make_unique<DescribedTile>(*tile.is));
   }
   Result<CommonSchema> common = commonSchema(sources, std::nullopt);
   if (!common)
@@ -95,18 +116,20 @@ Result<std::vector<TileColumns>> chooseColumns(StoreDescription& whole, const Ti
   return columns;
 }
 
-void compareColumns(StoreDescription& whole, const std::vector<TileColumns>& columns)
+void compareColumns(
+  StoreDescription& whole, const Tiles& tiles, const std::vector<TileColumns>& columns)
 {
+  const std::size_t all = countOf(tiles);
   std::map<std::size_t, std::string> lacked; // how many stores lack which
   for (std::size_t c = 0; c < whole.schema.size(); ++c)
   {
     const Attribute& attribute = whole.schema[c];
     std::size_t lacking = 0;
     std::size_t differing = 0;
-    for (const TileColumns& tile : columns)
+    for (std::size_t t = 0; t < tiles.size(); ++t)
     {
-      lacking += tile.lacks(c) ? 1 : 0;
-      differing += tile.converts(c) ? 1 : 0;
+      lacking += columns[t].lacks(c) ? tiles[t].count : 0;
+      differing += columns[t].converts(c) ? tiles[t].count : 0;
     }
     if (lacking > 0)
     {
@@ -117,13 +140,13 @@ void compareColumns(StoreDescription& whole, const std::vector<TileColumns>& col
     {
       whole.warnings.push_back("The attribute '" + attribute.name + "' is taken as " +
         std::string(nameOf(attribute.type)) + ", because its type or scale differs in " +
-        countOf(differing, columns.size()) + ".");
+        countOf(differing, all) + ".");
     }
   }
   for (const auto& [lacking, names] : lacked)
   {
     whole.warnings.push_back(
-      countOf(lacking, columns.size()) + " lack " + names + "; zeros are shown for their points.");
+      countOf(lacking, all) + " lack " + names + "; zeros are shown for their points.");
   }
 }
 
@@ -134,7 +157,7 @@ ColumnSelection computedColumns(const StoreDescription& whole, const Tiles& tile
   for (std::uint32_t c = 0; c < whole.schema.size(); ++c)
   {
     const bool held = std::any_of(tiles.begin(), tiles.end(),
-      [&](const StoreDescription* tile)
+      [&](const DescribedTiles& tile)
       {
         const auto own = tile->schema.find(whole.schema[c].name);
         return own && !tile->isComputed(*own);
@@ -147,20 +170,13 @@ ColumnSelection computedColumns(const StoreDescription& whole, const Tiles& tile
   return computed;
 }
 
-std::vector<TilePlacing> chooseGrid(StoreDescription& whole, const Tiles& tiles)
+void chooseGrid(StoreDescription& whole, const std::vector<QuantisationGrid>& grids)
 {
-  std::vector<QuantisationGrid> grids;
-  for (const StoreDescription* tile : tiles)
-  {
-    grids.push_back(tile->grid);
-  }
   whole.grid = TilePlacing::commonGrid(grids);
-  std::vector<TilePlacing> placings;
   std::size_t rounded = 0;
   for (const QuantisationGrid& grid : grids)
   {
-    placings.emplace_back(grid, whole.grid);
-    rounded += placings.back().exact() ? 0 : 1;
+    rounded += TilePlacing(grid, whole.grid).exact() ? 0 : 1;
   }
   if (rounded > 0)
   {
@@ -169,9 +185,8 @@ std::vector<TilePlacing> chooseGrid(StoreDescription& whole, const Tiles& tiles)
       " do not lie on the grid of the finest; their points are rounded, by at most %.9g, %.9g, "
       "%.9g units.",
       0.5 * whole.grid.scale.x, 0.5 * whole.grid.scale.y, 0.5 * whole.grid.scale.z);
-    whole.warnings.push_back(countOf(rounded, tiles.size()) + text);
+    whole.warnings.push_back(countOf(rounded, grids.size()) + text);
   }
-  return placings;
 }
 
 void compareSystems(StoreDescription& whole, const Tiles& tiles)
@@ -181,12 +196,12 @@ void compareSystems(StoreDescription& whole, const Tiles& tiles)
   std::string differing;
   std::size_t different = 0;
   std::size_t silent = 0;
-  for (const StoreDescription* tile : tiles)
+  for (const DescribedTiles& tile : tiles)
   {
-    const std::string system = projectionOf(*tile);
+    const std::string system = projectionOf(*tile.is);
     if (system.empty())
     {
-      ++silent;
+      silent += tile.count;
     }
     else if (known.empty())
     {
@@ -197,19 +212,21 @@ void compareSystems(StoreDescription& whole, const Tiles& tiles)
     }
     else if (system != known)
     {
-      differing = ++different == 1 ? tile->path : differing;
+      differing = different == 0 ? tile->path : differing;
+      different += tile.count;
     }
   }
+  const std::size_t all = countOf(tiles);
   if (different > 0)
   {
-    whole.warnings.push_back(countOf(different, tiles.size()) +
+    whole.warnings.push_back(countOf(different, all) +
       " name another coordinate reference system than '" + knownOf + "', the first '" + differing +
       "': unless both mean the same, they do not lie where they should; build them with one "
       "--crs.");
   }
   if (silent > 0 && !known.empty())
   {
-    whole.warnings.push_back(countOf(silent, tiles.size()) +
+    whole.warnings.push_back(countOf(silent, all) +
       " name no coordinate reference system; they are taken to be in that of '" + knownOf + "'.");
   }
 }
@@ -219,11 +236,11 @@ void compareDistances(StoreDescription& whole, const Tiles& tiles)
 {
   constexpr double far = 10.0; // times all of them in a row
   double together = 0.0;
-  for (const StoreDescription* tile : tiles)
+  for (const DescribedTiles& tile : tiles)
   {
-    together += tile->bounds.empty() ? 0.0 : glm::length(tile->bounds.size());
+    together += tile.lengths;
   }
-  const double extent = whole.bounds.empty() ? 0.0 : glm::length(whole.bounds.size());
+  const double extent = diagonalOf(whole.bounds);
   if (together > 0.0 && extent > far * together)
   {
     char text[200];
@@ -239,7 +256,7 @@ void compareDistances(StoreDescription& whole, const Tiles& tiles)
 std::vector<std::vector<std::uint16_t>> addLayers(StoreDescription& whole, const Tiles& tiles)
 {
   std::map<std::pair<std::uint16_t, std::string>, Layer> layers;
-  for (const StoreDescription* tile : tiles)
+  for (const DescribedTiles& tile : tiles)
   {
     for (const Layer& layer : tile->layers)
     {
@@ -271,6 +288,47 @@ std::vector<std::vector<std::uint16_t>> addLayers(StoreDescription& whole, const
   }
   return own;
 }
+
+/// `grids`: those of all stores.
+Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
+  const std::vector<QuantisationGrid>& grids, std::vector<std::string> warnings)
+{
+  TileDescription result;
+  StoreDescription& whole = result.whole;
+  whole.path = path;
+  whole.warnings = std::move(warnings);
+  if (Result<void> summed = addSums(whole, tiles); !summed)
+  {
+    return summed.error();
+  }
+  Result<std::vector<TileColumns>> columns = chooseColumns(whole, tiles);
+  if (!columns)
+  {
+    return columns.error();
+  }
+  compareColumns(whole, tiles, *columns);
+  chooseGrid(whole, grids);
+  compareSystems(whole, tiles);
+  compareDistances(whole, tiles);
+  whole.rangesAreSampled = std::any_of(
+    tiles.begin(), tiles.end(), [](const auto& tile) { return tile->rangesAreSampled; });
+  for (std::size_t c = 0; c < whole.schema.size(); ++c)
+  {
+    whole.ranges.push_back(emptyRange(whole.schema[c]));
+    for (std::size_t t = 0; t < tiles.size(); ++t)
+    {
+      addRange(whole.ranges[c], (*columns)[t].range(*tiles[t].is, c, whole.schema[c]));
+    }
+  }
+  whole.computed = computedColumns(whole, tiles);
+  std::vector<std::vector<std::uint16_t>> layers = addLayers(whole, tiles);
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+  {
+    result.parts.push_back(
+      { std::move((*columns)[t]), TilePlacing(tiles[t]->grid, whole.grid), std::move(layers[t]) });
+  }
+  return result;
+}
 } // namespace
 
 std::string projectionOf(const StoreDescription& store)
@@ -286,43 +344,62 @@ std::string projectionOf(const StoreDescription& store)
   return text;
 }
 
-Result<TileDescription> TileDescription::of(
-  const std::string& path, const Tiles& tiles, std::vector<std::string> warnings)
+void AlikeTiles::begin(const StoreDescription& first)
 {
-  TileDescription result;
-  StoreDescription& whole = result.whole;
-  whole.path = path;
-  whole.warnings = std::move(warnings);
-  if (Result<void> summed = addSums(whole, tiles); !summed)
+  together = first;
+  together.wholeCount = first.pointCount + first.missingPoints();
+  count = 1;
+  lengths = diagonalOf(first.bounds);
+}
+
+void AlikeTiles::add(const CollectedTile& tile)
+{
+  ++count;
+  lengths += diagonalOf(tile.bounds);
+  together.fileBytes += tile.fileBytes;
+  together.pointCount += tile.pointCount;
+  together.wholeCount += std::max(tile.pointCount, tile.wholeCount);
+  together.bounds.add(tile.bounds);
+  together.levels = std::max(together.levels, tile.levels);
+  auto ends = tile.ranges.begin();
+  for (ColumnRange& range : together.ranges)
   {
-    return summed.error();
-  }
-  Result<std::vector<TileColumns>> columns = chooseColumns(whole, tiles);
-  if (!columns)
-  {
-    return columns.error();
-  }
-  compareColumns(whole, *columns);
-  std::vector<TilePlacing> placings = chooseGrid(whole, tiles);
-  compareSystems(whole, tiles);
-  compareDistances(whole, tiles);
-  whole.rangesAreSampled = std::any_of(
-    tiles.begin(), tiles.end(), [](const auto& tile) { return tile->rangesAreSampled; });
-  for (std::size_t c = 0; c < whole.schema.size(); ++c)
-  {
-    whole.ranges.push_back(emptyRange(whole.schema[c]));
-    for (std::size_t t = 0; t < tiles.size(); ++t)
+    for (std::array<double, 2>& all : range.components)
     {
-      addRange(whole.ranges[c], (*columns)[t].range(*tiles[t], c, whole.schema[c]));
+      all = { std::min(all[0], (*ends)[0]), std::max(all[1], (*ends)[1]) };
+      ++ends;
     }
   }
-  whole.computed = computedColumns(whole, tiles);
-  std::vector<std::vector<std::uint16_t>> layers = addLayers(whole, tiles);
-  for (std::size_t t = 0; t < tiles.size(); ++t)
+  for (std::size_t layer = 0; layer < tile.layers.size(); ++layer)
   {
-    result.parts.push_back({ std::move((*columns)[t]), placings[t], std::move(layers[t]) });
+    together.layers[layer].pointCount += tile.layers[layer].first;
+    together.layers[layer].nodeCount += tile.layers[layer].second;
   }
-  return result;
+}
+
+Result<TileDescription> TileDescription::of(const std::string& path,
+  const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings)
+{
+  Tiles described;
+  std::vector<QuantisationGrid> grids;
+  for (const StoreDescription* const tile : tiles)
+  {
+    described.push_back({ tile, 1, diagonalOf(tile->bounds) });
+    grids.push_back(tile->grid);
+  }
+  return describedOf(path, described, grids, std::move(warnings));
+}
+
+Result<TileDescription> TileDescription::of(const std::string& path,
+  const std::vector<AlikeTiles>& kinds, const std::vector<QuantisationGrid>& grids,
+  std::vector<std::string> warnings)
+{
+  Tiles described;
+  for (const AlikeTiles& kind : kinds)
+  {
+    described.push_back({ &kind.together, kind.count, kind.lengths });
+  }
+  return describedOf(path, described, grids, std::move(warnings));
 }
 
 } // namespace pointfront

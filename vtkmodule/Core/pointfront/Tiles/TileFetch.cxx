@@ -3,6 +3,8 @@
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Threads/WaitingWork.h"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <map>
 #include <optional>
@@ -58,6 +60,36 @@ std::vector<Result<FetchedNode>> fetchTiles(
     results.push_back(std::move(*each));
   }
   return results;
+}
+
+NodeColumns sliced(
+  const NodeColumns& node, std::size_t begin, std::size_t end, const AttributeSchema& schema)
+{
+  NodeColumns part;
+  part.origin = node.origin;
+  part.selection = node.selection;
+  const auto at = [](const auto& values, std::size_t place)
+  { return values.begin() + static_cast<std::ptrdiff_t>(place); };
+  part.positions.assign(at(node.positions, begin), at(node.positions, end));
+  for (std::size_t c = 0; c < node.columns.size(); ++c)
+  {
+    const std::size_t bytes = schema[node.selection[c]].bytes();
+    const std::vector<std::byte>& values = node.columns[c];
+    part.columns.emplace_back(at(values, begin * bytes), at(values, end * bytes));
+  }
+  return part;
+}
+
+void raiseOpenFiles(std::size_t tiles)
+{
+  constexpr rlim_t others = 256;
+  rlimit limit = {};
+  const rlim_t wanted = static_cast<rlim_t>(2 * tiles) + others; // an index has two files
+  if (::getrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur < wanted)
+  {
+    limit.rlim_cur = limit.rlim_max == RLIM_INFINITY ? wanted : std::min(wanted, limit.rlim_max);
+    ::setrlimit(RLIMIT_NOFILE, &limit); // where it is refused, open() says so
+  }
 }
 
 } // namespace pointfront

@@ -1,7 +1,9 @@
 #pragma once
 
+#include "pointfront/Points/AttributeSchema.h"
 #include "pointfront/Store/StoredCloud.h"
 
+#include <cstddef>
 #include <vector>
 
 namespace pointfront
@@ -18,5 +20,12 @@ struct WantedOfTile
 /// order of `wanted`.
 std::vector<Result<FetchedNode>> fetchTiles(
   const std::vector<WantedOfTile>& wanted, const ReadStop& stop);
+
+/// Points `begin` to `end` of a node; no more memory than they take. `schema` is the node's own.
+NodeColumns sliced(
+  const NodeColumns& node, std::size_t begin, std::size_t end, const AttributeSchema& schema);
+
+/// Each open tile holds a file open: raises the limit of this process as far as it may be raised.
+void raiseOpenFiles(std::size_t tiles);
 
 } // namespace pointfront

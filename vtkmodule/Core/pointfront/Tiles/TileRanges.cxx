@@ -28,6 +28,21 @@ void thin(std::vector<double>& marks)
 }
 } // namespace
 
+WholeComponent WholeComponent::of(std::uint32_t number, const AttributeSchema& schema)
+{
+  if (number < coordinateComponents)
+  {
+    return { 0, number, nullptr };
+  }
+  std::uint32_t left = number - coordinateComponents;
+  std::uint32_t column = 0;
+  for (; left >= schema[column].components; ++column)
+  {
+    left -= static_cast<std::uint32_t>(schema[column].components);
+  }
+  return { column, left, &schema[column] };
+}
+
 void TileRanges::addUnknown()
 {
   constexpr double infinity = std::numeric_limits<double>::infinity();

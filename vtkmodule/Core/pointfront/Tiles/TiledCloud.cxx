@@ -6,7 +6,6 @@
 #include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Threads/ThreadCrew.h"
 #include "pointfront/Threads/WaitingWork.h"
-#include "pointfront/Tiles/NodeParts.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 #include "pointfront/Tiles/TileFetch.h"
 #include "pointfront/Tiles/TileRanges.h"

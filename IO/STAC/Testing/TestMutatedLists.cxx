@@ -1,0 +1,107 @@
+#include "ItemCollection.h"
+
+#include "RandomRounds.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <random>
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+/// One of each kind of fact that a list may have.
+const std::string sound =
+  R"({"type": "FeatureCollection", "links": [{"rel": "next", "href": "b"}], "features": [
+  {"type": "Feature", "id": "a", "properties": {"pc:count": 7, "proj:bbox": [1, 2, 3, 4.5, 5, 6],
+   "proj:wkt2": "PROJCRS[]", "pc:schemas": [{"name": "X", "size": 4}]},
+   "assets": {"data": {"href": "./a.copc.laz", "roles": ["data"]}, "view": {"href": "a.png"}}},
+  {"type": "Feature", "id": "b", "properties": {"proj:bbox": [1, 2, 4, 5], "proj:epsg": 25832,
+   "pc:statistics": [{"name": "Z", "minimum": -3, "maximum": 9}]},
+   "assets": {"points": {"href": "https://host/b/../c?sig=1", "pc:count": 1e3,
+              "type": "application/vnd.laszip+copc"}}}]})";
+
+class Mutation
+{
+public:
+  explicit Mutation(unsigned seed)
+    : random_(seed)
+  {
+  }
+  std::string of(std::string text)
+  {
+    for (std::size_t times = 1 + below(4); times > 0 && !text.empty(); --times)
+    {
+      const std::size_t at = below(text.size());
+      const std::size_t size = 1 + below(below(8) == 0 ? 200 : 6);
+      switch (below(5))
+      {
+        case 0:
+          text[at] = static_cast<char>(below(256));
+          break;
+        case 1:
+          text.erase(at, size);
+          break;
+        case 2:
+          text.insert(below(text.size()), text.substr(at, size));
+          break;
+        case 3:
+          text.replace(at, size, words_[below(std::size(words_))]);
+          break;
+        default:
+          text.resize(at);
+      }
+    }
+    return text;
+  }
+
+private:
+  std::size_t below(std::size_t most) { return random_() % most; }
+
+  static constexpr const char* words_[] = { "null", "[]", "{}", "-1", "1e999", "\"\"", "\\u0000",
+    "18446744073709551616", "[[[[[[[[", "../../", "file:///", "\xff\xfe", "://", "true", "#far:" };
+  std::mt19937 random_;
+};
+
+void expectSound(const ItemCollection& list, unsigned seed)
+{
+  EXPECT_FALSE(list.items.empty()) << seed;
+  for (const STACItem& item : list.items)
+  {
+    EXPECT_FALSE(item.href.empty()) << seed;
+    EXPECT_TRUE(!item.bounds || !item.bounds->empty()) << seed;
+    EXPECT_TRUE(!item.points || *item.points <= std::uint64_t(1) << 48) << seed;
+    EXPECT_TRUE(resolvedHref("a/list.vpc", item.href)) << seed;
+    const Result<std::string> far = resolvedHref("https://host/a/list.vpc", item.href);
+    EXPECT_TRUE(!far || far->find("://") != std::string::npos) << seed << ": " << *far;
+  }
+}
+} // namespace
+
+/// The fuzz target `fuzz-itemcollection` looks for more.
+TEST(ItemCollection, MutatedListsAreReadOrSayWhy)
+{
+  ASSERT_TRUE(ItemCollection::parse(sound, "x.vpc"));
+  unsigned taken = 0;
+  const unsigned rounds = test::randomRounds(2000);
+  for (unsigned seed = 0; seed < rounds; ++seed)
+  {
+    const Result<ItemCollection> list = ItemCollection::parse(Mutation(seed).of(sound), "x.vpc");
+    taken += list ? 1 : 0;
+    if (list)
+    {
+      expectSound(*list, seed);
+    }
+    else
+    {
+      EXPECT_EQ(list.error().kind, Error::Kind::BadFormat) << seed;
+      EXPECT_EQ(list.error().what.compare(0, 6, "x.vpc:"), 0) << seed << ": " << list.error().what;
+    }
+  }
+  EXPECT_GT(taken, rounds / 20); // these reach what is read of an item
+  EXPECT_LT(taken, rounds);
+}
+
+} // namespace pointfront

@@ -1,0 +1,210 @@
+"""`pointfront cluster build -o s3://...`: tiles in a bucket, whatever fails on the way."""
+
+import contextlib
+import hashlib
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+SUPPORT = pathlib.Path(__file__).resolve().parents[3] / "Testing" / "Support"
+sys.path.insert(0, str(SUPPORT))
+
+from bucket_server import BucketServer  # pylint: disable=wrong-import-position
+
+from pointfront._host import TOOL  # pylint: disable=wrong-import-position
+
+OPTIONS = ("--tile", "40", "--normals", "pca", "--progress", "none")
+COMMAND = (sys.executable, "-B", "-m", "pointfront", "cluster", "build")
+PLACE = f"s3://{BucketServer.BUCKET}/countries/land"
+STATE = "countries/land/land.pfcollection"
+
+
+def digests(objects):
+    """Tiles and the collection, by their names below the address."""
+    return {key.removeprefix("countries/land/"): hashlib.sha256(data).hexdigest()
+            for key, data in objects.items() if key.endswith((".pfront", ".pfcollection"))}
+
+
+class BucketBuild(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.place = tempfile.TemporaryDirectory()
+        cls.root = pathlib.Path(cls.place.name).resolve()
+        cls.inputs = cls.root / "inputs"
+        cls.inputs.mkdir()
+        for name, seed in (("a", "3"), ("b", "4")):
+            cls.tool("generate", "--points", "30000", "-o", cls.inputs / f"{name}.las",
+                     "--seed", seed)
+        folder = cls.root / "usual/land"
+        cls.tool("build", cls.inputs, "-o", folder, "--tiles", *OPTIONS)
+        cls.expected = digests({str(file.relative_to(folder)): file.read_bytes()
+                                for file in folder.rglob("*.pf*")})
+        assert len(cls.expected) > 3
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.place.cleanup()
+
+    @staticmethod
+    def tool(*arguments, **environment):
+        return subprocess.run([str(TOOL), *map(str, arguments)], check=True, capture_output=True,
+                              text=True, env={**os.environ, **environment}).stdout
+
+    def setUp(self):
+        # Few keys in an answer: a list takes several.
+        self.server = self.enterContext(BucketServer(page=5))
+        self.environment = {name: value for name, value in os.environ.items()
+                            if not name.startswith("AWS_")}
+        self.environment |= self.server.environment()
+        self.environment |= {"POINTFRONT_CACHE": "off", "TMPDIR": str(self.root)}
+
+    def begun(self, *more, output=PLACE, **environment):
+        return subprocess.Popen(
+            [*COMMAND, str(self.inputs), "-o", output, *OPTIONS, "--local", "2", *more],
+            stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
+            env={**self.environment, **environment})
+
+    def build(self, *more, status=0, **environment):
+        process = self.begun(*more, **environment)
+        out, said = process.communicate(timeout=240)
+        self.assertEqual(process.returncode, status, said)
+        return out if status == 0 else said
+
+    def puts(self, ending):
+        return [key for method, key in self.server.requests
+                if method in ("PUT", "POST") and key.endswith(ending)]
+
+    def test_two_workers_give_the_bytes_of_a_folder(self):
+        before = set(self.root.glob("pointfront-*"))  # builds that other tests kill leave theirs
+        told = json.loads(self.build("--json"))
+        self.assertEqual(told["collection"], f"{PLACE}/land.pfcollection")
+        self.assertEqual(digests(self.server.objects), self.expected)
+        keys = [key for method, key in self.server.requests if method == "PUT"]
+        stores = [place for place, key in enumerate(keys) if key.endswith(".pfront")]
+        self.assertGreater(keys.index(STATE), max(stores))  # the state is the last
+        self.assertIn("status 0", self.server.objects["countries/land/work/logs/survey-0.log"]
+                      .decode())
+        info = json.loads(self.tool("info", f"{PLACE}/land.pfcollection", "--json",
+                                    **self.environment))
+        self.assertEqual(info["points"], told["points_stored"])
+        out = self.root / "all.xyz"
+        self.tool("export", f"{PLACE}/land.pfcollection", "-o", out, "--force",
+                  **self.environment)
+        self.assertEqual(len(out.read_text().splitlines()), 1 + told["points_stored"])
+        self.assertEqual(set(self.root.glob("pointfront-*")), before)
+        # All is done: nothing but the plan's records is written again.
+        self.server.requests.clear()
+        self.server.objects["countries/land/tiles/9_9-old.pfront"] = b"of no build"
+        self.build()
+        self.assertEqual(self.puts(".pfront"), [])
+        self.assertEqual(digests(self.server.objects) | self.expected, self.expected)
+
+    def test_a_failed_upload_is_tried_again_or_told(self):
+        times = {}
+
+        def weather(method, key):
+            times[method, key] = times.get((method, key), 0) + 1
+            if method == "PUT" and key.endswith(".pfront") and times[method, key] == 1:
+                return 503
+            return None
+
+        self.server.before = weather
+        self.build()
+        self.assertEqual(digests(self.server.objects), self.expected)
+        self.server.objects.clear()
+        self.server.requests.clear()
+        refused = next(name for name in sorted(self.expected) if name.startswith("tiles/"))
+        self.server.before = lambda method, key: (
+            403 if method == "PUT" and key.endswith(refused) else None)
+        said = self.build(status=1)
+        self.assertIn(f"cannot write {PLACE}/{refused}", said)
+        self.assertIn("AccessDenied", said)
+        self.assertIn("the same command goes on", said)
+        self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertNotIn(STATE, self.server.objects)
+        self.assertEqual(set(digests(self.server.objects)),
+                         {name for name in self.expected if name.startswith("tiles/")} - {refused})
+        self.server.requests.clear()
+        self.server.before = lambda method, key: None
+        self.build()
+        self.assertEqual(self.puts(".pfront"), [f"countries/land/{refused}"])
+        self.assertEqual(digests(self.server.objects), self.expected)
+
+    def killed_at(self, ending):
+        """A build that is killed, with its workers, when it uploads an object of such a name: the
+        object does not come to be."""
+        waits = []
+
+        def weather(method, key):
+            if method == "PUT" and key.endswith(ending) and "/logs/" not in key:
+                waits.append(key)
+                with contextlib.suppress(ProcessLookupError):
+                    os.killpg(process.pid, signal.SIGKILL)
+                return 503
+            return None
+
+        self.server.before = weather
+        process = self.begun()
+        process.communicate(timeout=240)
+        self.assertEqual(process.returncode, -signal.SIGKILL)
+        time.sleep(0.3)
+        self.server.before = lambda method, key: None
+        self.server.requests.clear()
+        self.assertGreaterEqual(len(waits), 1)
+        return waits
+
+    def test_a_kill_between_a_tile_and_its_record(self):
+        record = next(name for name in sorted(self.expected) if name.startswith("tiles/"))
+        record = "tile-" + record.removeprefix("tiles/").rsplit("-", 1)[0] + ".json"
+        self.killed_at(record)
+        self.assertNotIn(STATE, self.server.objects)
+        self.build()
+        self.assertEqual(digests(self.server.objects), self.expected)
+
+    def test_a_kill_between_the_tiles_and_the_state(self):
+        self.killed_at(".pfcollection")
+        self.assertNotIn(STATE, self.server.objects)
+        self.build()
+        self.assertEqual(self.puts(".pfront"), [])
+        self.assertEqual(digests(self.server.objects), self.expected)
+
+    def test_a_kill_between_the_state_and_its_note(self):
+        self.killed_at("collection.json")
+        self.assertIn(STATE, self.server.objects)
+        self.build()
+        self.assertEqual(self.puts(".pfront"), [])
+        self.assertEqual(digests(self.server.objects), self.expected)
+        self.assertIn("countries/land/work/collection.json", self.server.objects)
+
+    def test_a_state_that_somebody_has_changed_is_kept(self):
+        self.build()
+        self.server.objects[STATE] = b"another one"
+        said = self.build(status=1)
+        self.assertIn(f"{PLACE}/land.pfcollection: is not as this build left it", said)
+        self.assertEqual(self.server.objects[STATE], b"another one")
+
+    def test_words_about_buckets(self):
+        for output, words, environment in (
+                ("s3://", "no bucket's address", {}),
+                ("s3://another/land", "NoSuchBucket", {}),
+                (PLACE, "there are no keys", {"AWS_ACCESS_KEY_ID": "", "HOME": "/nonexistent",
+                                              "AWS_SECRET_ACCESS_KEY": ""}),
+                (PLACE, "Forbidden", {"AWS_SECRET_ACCESS_KEY": "another"})):
+            with self.subTest(words=words):
+                process = self.begun(output=output, **environment)
+                _, said = process.communicate(timeout=120)
+                self.assertEqual(process.returncode, 1, said)
+                self.assertIn(words, said)
+                self.assertEqual(len(said.splitlines()), 1, said)
+        self.assertIn("--decode once keeps", self.build("--decode", "once", status=1))
+        self.assertEqual(self.server.objects, {})
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -15,8 +15,10 @@
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <sstream>
+#include <thread>
 
 namespace pointfront
 {
@@ -40,13 +42,18 @@ std::int64_t gpuBytesMax(const std::vector<FrameRecord>& frames)
 }
 
 /// `interactive`: frames whose camera moved are drawn as in motion, others as at rest; the first is
-/// in motion if the second is.
-Result<std::vector<FrameRecord>> replay(StoreScene& scene, const CameraPath& path, bool interactive)
+/// in motion if the second is. A path that lasts some seconds gives each frame a time before which
+/// it does not begin; after a frame that took longer the next one begins at once.
+Result<std::vector<FrameRecord>> replay(
+  StoreScene& scene, const CameraPath& path, bool interactive, double seconds)
 {
   std::vector<FrameRecord> frames;
   frames.reserve(path.size());
+  const auto begin = std::chrono::steady_clock::now();
+  const std::chrono::duration<double> pace(seconds / static_cast<double>(path.size()));
   for (std::size_t i = 0; i < path.size(); ++i)
   {
+    std::this_thread::sleep_until(begin + static_cast<double>(i) * pace);
     const Camera& camera = path[i];
     const Camera& other = i > 0 ? path[i - 1] : path[std::min<std::size_t>(1, path.size() - 1)];
     scene.setInteractive(interactive && !(camera == other));
@@ -84,6 +91,11 @@ void BenchCommand::declare(CLI::App& program)
       "Time in which detail that comes or goes grows or shrinks; 0: it is there at once (250)")
     ->check(numberBetween(0.0, 10000.0))
     ->type_name("MS");
+  app_
+    ->add_option("--seconds", seconds_,
+      "The path lasts that long: a frame waits for its time (0: frames follow each other at once)")
+    ->check(numberBetween(0.0, 86400.0))
+    ->type_name("S");
   app_->add_flag("--settle", settles_,
     "After the path: frames at rest until the view is complete; --stats tells what that took");
   app_->add_option("--picture", picturePath_, "Write the last frame")->type_name("FILE.png");
@@ -146,7 +158,7 @@ Result<void> BenchCommand::run()
     warn(name(), warning);
   }
   const Result<CameraPath> cameras = path(**scene);
-  auto frames = cameras ? replay(**scene, cameras.value(), interactive_)
+  auto frames = cameras ? replay(**scene, cameras.value(), interactive_, seconds_)
                         : Result<std::vector<FrameRecord>>(cameras.error());
   if (!frames)
   {

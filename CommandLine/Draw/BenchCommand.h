@@ -31,6 +31,7 @@ private:
   std::string framesPath_;
   std::string picturePath_;
   int frames_ = 0;
+  double seconds_ = 0.0;
   bool interactive_ = false;
   bool settles_ = false;
 };

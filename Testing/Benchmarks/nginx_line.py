@@ -1,16 +1,23 @@
 #!/usr/bin/python3
-"""First and complete picture of clouds behind nginx and a line, and once more from the cache.
+"""Pictures of clouds behind nginx and a line, once more from the cache, and flights.
 
     Testing/Benchmarks/nginx_line.py TOOL CLOUD... [--round-trip MS] [--megabits N] [--runs N]
+                                     [--flight SECONDS] [--laspy PYTHON]
 
 nginx (Debian: nginx-light) serves the folder of each cloud on the loopback, and
 Testing/Support/slow_line.py is the line before it. A cloud is a file or an EPT's ept.json. Each run
 is a process of its own, with an empty cache; "again" is one more with what that run has kept.
 Prints a Markdown table of medians: seconds, requests and bytes of the whole run, as
 `render --stats` tells. Seconds count from the start of the program; "local" is the cloud as a file.
+
+--flight draws 30 frames a second along `bench --path flight`, and rests then: a second table has
+the times of frames, the error on the way, and the seconds from rest to the complete picture.
+--laspy reads all points of a COPC file with laspy over HTTP, by a Python that has laspy and lazrs
+(scripts/copc-readers fetches them); each run is a process of its own.
 """
 
 import argparse
+import csv
 import json
 import os
 import pathlib
@@ -40,6 +47,13 @@ http {{
     location / {{ root {root}; types {{ }} default_type application/octet-stream; gzip off; }}
   }}
 }}
+"""
+
+
+LASPY = """
+import sys, laspy
+with laspy.CopcReader.open(sys.argv[1]) as reader:
+    print(len(reader.query()))
 """
 
 
@@ -77,6 +91,46 @@ def rows(tool, cloud, address, runs, work):
               f"| {median(runs_of, 'bytes_read', 1e-6):.2f} |", flush=True)
 
 
+def by_laspy(python, cloud, address, runs):
+    """Prints a row: all points of a COPC file."""
+    seconds = []
+    for _ in range(runs):
+        begin = time.monotonic()
+        subprocess.run([python, "-c", LASPY, address], check=True, stdout=subprocess.DEVNULL)
+        seconds.append(time.monotonic() - begin)
+    print(f"| {cloud.name} | all by laspy | {statistics.median(seconds):.2f} s | | "
+          f"{cloud.stat().st_size * 1e-6:.2f} | | |", flush=True)
+
+
+def share(values, part):
+    return sorted(values)[min(len(values) - 1, int(part * len(values)))]
+
+
+def fly(tool, cloud, address, seconds, work):
+    """Prints two rows of the second table: a flight from afar with an empty cache, and a local
+    one."""
+    cache, report, frames = work / "cache", work / "flight.json", work / "flight.csv"
+    shutil.rmtree(cache, ignore_errors=True)
+    environment = {name: value for name, value in os.environ.items() if "proxy" not in name.lower()}
+    environment["POINTFRONT_CACHE"] = str(cache)
+    for name, place in (("far", address), ("local", cloud)):
+        subprocess.run([tool, "bench", place, "--path", "flight", "--frames", str(30 * seconds),
+                        "--seconds", str(seconds), "--interactive", "--frame-ms", "33", "--settle",
+                        "--size", "1280x720", "--error", "1", "--backend", "software",
+                        "--stats", report, "--frames-csv", frames],
+                       check=True, stdout=subprocess.DEVNULL, env=environment)
+        with open(frames, encoding="utf-8") as table:
+            rows_of = list(csv.DictReader(table))[1:30 * seconds]  # the first one opens
+        times = [float(row["ms"]) for row in rows_of]
+        errors = [float(row["error_px"]) for row in rows_of]
+        told = json.loads(report.read_text())
+        print(f"| {cloud.name} | {name} | {share(times, .5):.1f} | {share(times, .95):.1f} "
+              f"| {share(errors, .5):.2f} | {share(errors, .95):.2f} "
+              f"| {told['frames_that_read_files']} | {told['settle']['ms'] / 1000:.2f} s "
+              f"| {told.get('requests', 0)} | {told.get('bytes_fetched', 0) * 1e-6:.1f} |",
+              flush=True)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("tool", type=pathlib.Path)
@@ -85,6 +139,8 @@ def main():
     parser.add_argument("--megabits", type=float, default=100.0)
     parser.add_argument("--port", type=int, default=18080)
     parser.add_argument("--runs", type=int, default=3)
+    parser.add_argument("--flight", type=int, default=0, metavar="SECONDS")
+    parser.add_argument("--laspy", metavar="PYTHON")
     given = parser.parse_args()
     work = pathlib.Path(tempfile.mkdtemp(prefix="pointfront-nginx-"))
     clouds = [cloud.absolute() for cloud in given.clouds]
@@ -108,9 +164,19 @@ def main():
             print("| cloud | picture | time | requests | MB fetched | nodes drawn | MB read |\n"
                   "|---|---|---|---|---|---|---|")
             with SlowLine(given.port, given.round_trip / 1000, given.megabits * 1e6) as line:
-                for cloud in clouds:
-                    address = f"http://{HERE}:{line.port}/{cloud.relative_to(root)}"
-                    rows(given.tool.absolute(), cloud, address, given.runs, work)
+                tool = given.tool.absolute()
+                places = {cloud: f"http://{HERE}:{line.port}/{cloud.relative_to(root)}"
+                          for cloud in clouds}
+                for cloud, address in places.items():
+                    rows(tool, cloud, address, given.runs, work)
+                    if given.laspy and cloud.name.endswith(".copc.laz"):
+                        by_laspy(given.laspy, cloud, address, given.runs)
+                if given.flight > 0:
+                    print("\n| cloud | flight | frame, 50 % (ms) | 95 % | error, 50 % (px) | 95 % "
+                          "| frames that read files | complete after rest | requests "
+                          "| MB fetched |\n|---|---|---|---|---|---|---|---|---|---|")
+                    for cloud, address in places.items():
+                        fly(tool, cloud, address, given.flight, work)
         finally:
             nginx.terminate()
     shutil.rmtree(work, ignore_errors=True)

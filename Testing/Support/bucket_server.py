@@ -165,7 +165,7 @@ class BucketServer(http.server.ThreadingHTTPServer):
         """The variables by which a program finds it, and may write."""
         return {"AWS_ENDPOINT_URL": self.endpoint, "AWS_REGION": "eu-central-1",
                 "AWS_ACCESS_KEY_ID": signature_v4.KEY_ID, "AWS_SECRET_ACCESS_KEY": signature_v4.KEY,
-                "AWS_EC2_METADATA_DISABLED": "true"}
+                "AWS_EC2_METADATA_DISABLED": "true", "no_proxy": HERE}
 
     def handle_error(self, request, client_address):
         """A client that went away is no news."""

@@ -6,6 +6,7 @@ import os
 import pathlib
 import re
 import subprocess
+import sys
 import unittest
 
 from documents import Workplace, blocks, shown_points
@@ -13,6 +14,9 @@ from tool import TOOL, ToolTest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 USER = ROOT / "docs/user"
+sys.path.insert(0, str(ROOT / "Testing/Support"))
+
+from bucket_server import BucketServer  # pylint: disable=wrong-import-position
 
 # Commands that other tests run: what a new machine sets up, servers, installed packages.
 ELSEWHERE = ("scripts/", "cmake ", "python3 -m ", "apt-get ", "env/bin/", "pip ", "PYTHONPATH=",
@@ -22,6 +26,17 @@ ELSEWHERE = ("scripts/", "cmake ", "python3 -m ", "apt-get ", "env/bin/", "pip "
 def commands(path):
     """Blocks of the shell, with their lines' numbers."""
     return [(begin, text) for language, begin, text in blocks(path) if language == "sh"]
+
+
+class PublishedFolder(BucketServer):
+    """The bucket of the documentation holds the collection that an earlier command has made."""
+
+    BUCKET = "my-bucket"
+
+    def __init__(self, folder):
+        super().__init__()
+        self.objects = {str(file.relative_to(folder)): file.read_bytes()
+                        for file in folder.glob("country/**/*.pf*")}
 
 
 class Commands(ToolTest):
@@ -35,8 +50,11 @@ class Commands(ToolTest):
             re.sub(r"^(pointfront (?:build|export|index|generate) )", r"\1--force ", line)
             for line in own)
         environment = dict(os.environ, PATH=f"{pathlib.Path(TOOL).parent}:{os.environ['PATH']}")
-        done = subprocess.run(["bash", "-euc", script], cwd=self.workplace.folder, check=False,
-                              capture_output=True, text=True, env=environment, timeout=900)
+        with PublishedFolder(self.workplace.folder) as bucket:
+            if f"s3://{bucket.BUCKET}/" in script:
+                environment |= {**bucket.environment(), "POINTFRONT_CACHE": "off"}
+            done = subprocess.run(["bash", "-euc", script], cwd=self.workplace.folder, check=False,
+                                  capture_output=True, text=True, env=environment, timeout=900)
         self.assertEqual(done.returncode, 0, f"{where}: {script}\n{done.stderr}")
         self.assertNotIn("no point of the store is selected", done.stderr, where)
         self.assertNotIn(0, shown_points(done.stdout), where)

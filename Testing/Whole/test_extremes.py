@@ -2,6 +2,7 @@
 that says by how much, or refused with what fits."""
 
 import random
+import struct
 import unittest
 
 from tool import ToolTest, write_las
@@ -82,6 +83,39 @@ class WholeRange(ToolTest):
         after = self.succeed("info", out, "--json").json
         self.assertEqual(after["bounds"], before["bounds"])
         self.assertEqual(after["points"], 4)
+
+
+class Counts(ToolTest):
+    """Numbers of points that 31, 32 or 53 bits do not hold, of files with holes instead of
+    points."""
+
+    def las(self, name, claimed, there):
+        """A LAS 1.4 of format 6; all its points are zeros."""
+        header = bytearray(375)
+        header[:4], header[24:26], header[104] = b"LASF", (1, 4), 6
+        struct.pack_into("<HI", header, 94, 375, 375)
+        struct.pack_into("<H", header, 105, 30)
+        struct.pack_into("<3d", header, 131, 0.01, 0.01, 0.01)
+        struct.pack_into("<6d", header, 179, *(1, 0) * 3)  # without a box, info would read them all
+        struct.pack_into("<Q", header, 247, claimed)
+        path = self.folder / name
+        with open(path, "wb") as file:
+            file.write(header)
+            file.truncate(375 + 30 * there)
+        return path
+
+    def test_counts_of_headers_are_told_to_the_last_point(self):
+        for count in (2 ** 31, 2 ** 32 + 5, 2 ** 37 + 1):
+            told = self.succeed("info", self.las("holes.las", count, count), "--json").json
+            self.assertEqual((told["points"], told["bytes"]), (count, 375 + 30 * count))
+        self.assertIn(f"{count} (from the header)", self.succeed("info", self.folder / "holes.las").out)
+
+    def test_missing_points_are_counted_to_the_last_one(self):
+        path = self.las("lies.las", 2 ** 53 + 1, 1000)
+        built = self.succeed("build", path, "-o", self.folder / "x.pfront", "--json")
+        self.assertEqual(built.json["points_stored"], 1000)
+        self.assertEqual(built.json["points_rejected"], {"missing": 2 ** 53 - 999})
+        self.assertIn(f"{2 ** 53 - 999} of {2 ** 53 + 1} points are missing", built.err)
 
 
 if __name__ == "__main__":

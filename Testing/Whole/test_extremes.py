@@ -96,7 +96,8 @@ class Counts(ToolTest):
         struct.pack_into("<HI", header, 94, 375, 375)
         struct.pack_into("<H", header, 105, 30)
         struct.pack_into("<3d", header, 131, 0.01, 0.01, 0.01)
-        struct.pack_into("<6d", header, 179, *(1, 0) * 3)  # without a box, info would read them all
+        # Without a box, info would read them all.
+        struct.pack_into("<6d", header, 179, *(1, 0) * 3)
         struct.pack_into("<Q", header, 247, claimed)
         path = self.folder / name
         with open(path, "wb") as file:

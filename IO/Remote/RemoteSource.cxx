@@ -21,7 +21,7 @@ constexpr std::uint64_t keptBytes = FarSegment::blockBytes;
 constexpr std::size_t mostBlocks = 256;
 constexpr std::uint64_t largestPiece = std::uint64_t(4) << 20;
 constexpr double leastGap = 4096.0;
-constexpr double largestGap = 262144.0;
+constexpr double largestGap = 65536.0;
 
 /// Bytes that may lie between two ranges of one request: as many as come in the time that one more
 /// request costs beside others.
@@ -90,6 +90,16 @@ void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size,
   }
 }
 
+/// Leaves out the part of a block with which a piece begins. The cache keeps whole blocks only: a
+/// node that lies there would be answered from memory, and be missing offline.
+void cutToBlock(WantedBytes& piece)
+{
+  const std::uint64_t cut =
+    std::min<std::uint64_t>((keptBytes - piece.offset % keptBytes) % keptBytes, piece.bytes.size());
+  piece.bytes.erase(piece.bytes.begin(), piece.bytes.begin() + static_cast<std::ptrdiff_t>(cut));
+  piece.offset += cut;
+}
+
 } // namespace
 
 RemoteSource::RemoteSource(
@@ -155,8 +165,12 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
   {
     source->cache_->note(source->kept_);
   }
-  for (const WantedBytes& end : source->ends_)
+  for (WantedBytes& end : source->ends_)
   {
+    if (source->cache_)
+    {
+      cutToBlock(end);
+    }
     source->keepOnDisk(end);
   }
   return std::shared_ptr<const RemoteSource>(std::move(source));

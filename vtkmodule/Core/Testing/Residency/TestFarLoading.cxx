@@ -8,8 +8,10 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <set>
 #include <thread>
 #include <vector>
@@ -73,6 +75,10 @@ public:
   {
     return made_.storedBytes(node, columns);
   }
+  std::optional<std::uint64_t> place(NodeIndex node) const override
+  {
+    return placeOf ? std::optional<std::uint64_t>(placeOf(node)) : std::nullopt;
+  }
   std::uint64_t disk() const override { return server_; }
   ReadCost readCost() const override { return cost_; }
 
@@ -83,6 +89,7 @@ public:
   }
   void breakNode(NodeIndex node) { made_.breakNode(node); }
 
+  std::function<std::uint64_t(NodeIndex)> placeOf; ///< none: nobody knows
   std::atomic<bool> held{ false };
   mutable std::atomic<int> under{ 0 };
   mutable std::atomic<int> underMost{ 0 };
@@ -141,6 +148,25 @@ TEST(FarLoading, WantedNodesComeInBatchesInTheirOrder)
   }
   EXPECT_EQ(all.size(), 200u);
   EXPECT_TRUE(store.takeErrors().empty());
+}
+
+TEST(FarLoading, ABatchHasWhatLiesNearItsFirstNodeInTheFile)
+{
+  // Nodes lie in the file in another order than they are wanted: 0, 50, 1, 51, ...
+  const auto reader = std::make_shared<FarReader>(7, ReadCost{ 0.02, 12.5e6, 1, 10000 });
+  reader->placeOf = [](NodeIndex node) { return node % 50 * 2 + node / 50; };
+  Residency store(reader, 1000, farScheduler(1));
+  store.request(farWish(0, 100));
+  store.waitUntilIdle();
+  EXPECT_EQ(store.arrivals(), 100u);
+  const auto batches = reader->batches();
+  EXPECT_GT(batches.size(), 3u);
+  for (const auto& batch : batches)
+  {
+    const auto [low, high] = std::minmax_element(batch.begin(), batch.end(),
+      [&](NodeIndex a, NodeIndex b) { return reader->placeOf(a) < reader->placeOf(b); });
+    EXPECT_EQ(reader->placeOf(*high) - reader->placeOf(*low), batch.size() - 1) << "neighbours";
+  }
 }
 
 TEST(FarLoading, AsManyBatchesAsTheSourceTakesAreUnderWay)

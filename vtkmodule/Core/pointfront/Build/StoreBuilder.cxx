@@ -23,6 +23,11 @@ namespace
 constexpr double sortShare = 0.1;
 constexpr double buildShare = 0.55;
 
+// Beside the tables lie nodes around which there is such a share of all points, and so many leaves'
+// points: what a view of the whole cloud draws, and more than a request's worth.
+constexpr std::uint64_t lateShare = 128;
+constexpr std::uint64_t lateLeaves = 4;
+
 Result<void> checkOptions(const StoreBuild::Sources& sources, const BuildOptions& options)
 {
   if (sources.empty())
@@ -100,6 +105,7 @@ Result<void> StoreBuild::assemble()
   }
   const NodeEmitter emitter(space_, columns_, stored_, options_.refinement);
   AssemblyPlan plan = construction_->assembly(emitter);
+  plan.lateFrom = std::max(points_.kept / lateShare, lateLeaves * options_.nodePoints);
   plan.readAhead = { storage_.plan.partsAhead, (storage_.plan.threads + 1) / 2 };
   const auto partial = partialTrees(emitter, plan.tree);
   TreeAssembly assembly(std::move(plan), **writer, crew_, partial.get());

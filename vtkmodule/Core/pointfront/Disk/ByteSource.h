@@ -66,6 +66,8 @@ public:
   /// The number of the disk (file system) or of the server: equal for sources that share one.
   virtual std::uint64_t device() const = 0;
   virtual ReadCost cost() const { return {}; }
+  /// Whether a read of that range is answered from memory, of a part that its owner holds there.
+  virtual bool holds(std::uint64_t, std::size_t) const { return false; }
 
   /// Reads all ranges, in any order, together where that is faster. After an error the targets may
   /// be filled in part.

@@ -1,5 +1,6 @@
 #include "pointfront/Disk/DiskEstimate.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <optional>
 #include <sys/stat.h>
@@ -12,6 +13,8 @@ namespace
 /// Stores of airborne and terrestrial surveys take a fifth to a half of their raw records.
 constexpr std::uint64_t leastShareOfRecords = 6;
 constexpr std::uint64_t likelyShareOfRecords = 2;
+/// The upper nodes of any store have fewer points: a thousand nodes or so of 16,384.
+constexpr std::uint64_t mostLatePoints = std::uint64_t(1) << 24;
 
 const char advice[] = "; free some space, choose another folder for temporary files (--temp), "
                       "allow more memory (--memory) so that less is spilled, or write to "
@@ -20,7 +23,8 @@ const char advice[] = "; free some space, choose another folder for temporary fi
 std::string needsText(const DiskEstimate& estimate)
 {
   std::string text = "the store needs at least " + mebibytes(estimate.storeBytes) + ", perhaps " +
-    mebibytes(estimate.likelyStoreBytes) + ", in '" + estimate.outputFolder + "'";
+    mebibytes(estimate.likelyStoreBytes + estimate.lateBytes) + ", in '" + estimate.outputFolder +
+    "'";
   if (estimate.spillBytes > 0)
   {
     text += " and the points that do not fit in memory need " + mebibytes(estimate.spillBytes) +
@@ -97,6 +101,7 @@ void estimateStore(DiskEstimate& estimate, std::uint64_t points, std::size_t rec
 {
   estimate.storeBytes = points * recordBytes / leastShareOfRecords;
   estimate.likelyStoreBytes = points * recordBytes / likelyShareOfRecords;
+  estimate.lateBytes = std::min(points, mostLatePoints) * recordBytes / likelyShareOfRecords;
 }
 
 Result<void> checkDiskSpace(
@@ -113,7 +118,8 @@ Result<void> checkDiskSpace(
 std::string diskSpaceWarning(
   const DiskEstimate& estimate, const std::function<DiskSpace(const std::string&)>& spaceOf)
 {
-  const auto shortage = shortageOf(estimate, estimate.likelyStoreBytes, spaceOf);
+  const auto shortage =
+    shortageOf(estimate, estimate.likelyStoreBytes + estimate.lateBytes, spaceOf);
   return shortage ? "Disk space may not suffice: " + shortageText(estimate, *shortage) + "." : "";
 }
 

@@ -29,6 +29,8 @@ struct DiskEstimate
   std::string outputFolder;
   std::uint64_t storeBytes = 0; ///< the least that the store is expected to take
   std::uint64_t likelyStoreBytes = 0; ///< more than most stores take
+  /// Nodes that the store gets last lie in a temporary file in its folder until then.
+  std::uint64_t lateBytes = 0;
 };
 
 /// Fills in what a store of so many points takes. `recordBytes` is a point with all attributes,

@@ -34,20 +34,27 @@ Result<std::shared_ptr<const ByteSource>> HeldBytes::hold(
   return std::shared_ptr<const ByteSource>(std::move(bytes));
 }
 
+const std::byte* HeldBytes::find(std::uint64_t offset, std::size_t size) const
+{
+  for (const Held& held : held_)
+  {
+    const std::uint64_t from = offset - held.offset;
+    if (offset >= held.offset && from <= held.bytes.size && size <= held.bytes.size - from)
+    {
+      return held.bytes.data.get() + from;
+    }
+  }
+  return nullptr;
+}
+
 bool HeldBytes::copy(const ByteRange& range) const
 {
-  return std::any_of(held_.begin(), held_.end(),
-    [&range](const Held& held)
-    {
-      const std::uint64_t from = range.offset - held.offset;
-      if (range.offset < held.offset || from > held.bytes.size ||
-        range.size > held.bytes.size - from)
-      {
-        return false;
-      }
-      std::memcpy(range.target, held.bytes.data.get() + from, range.size);
-      return true;
-    });
+  const std::byte* held = find(range.offset, range.size);
+  if (held != nullptr)
+  {
+    std::memcpy(range.target, held, range.size);
+  }
+  return held != nullptr;
 }
 
 std::vector<ByteRange> HeldBytes::copyHeld(const ByteRange* ranges, std::size_t count) const

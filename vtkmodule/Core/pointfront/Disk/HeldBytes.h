@@ -27,6 +27,10 @@ public:
 
   std::uint64_t device() const override { return source_->device(); }
   ReadCost cost() const override { return source_->cost(); }
+  bool holds(std::uint64_t offset, std::size_t size) const override
+  {
+    return find(offset, size) != nullptr;
+  }
   /// Reads the ranges that are not held, together.
   Result<void> read(const ByteRange* ranges, std::size_t count) const override;
   Result<void> readUntil(
@@ -41,6 +45,7 @@ private:
     RawBytes bytes;
   };
   explicit HeldBytes(std::shared_ptr<const ByteSource> source);
+  const std::byte* find(std::uint64_t offset, std::size_t size) const;
   bool copy(const ByteRange& range) const;
   std::vector<ByteRange> copyHeld(const ByteRange* ranges, std::size_t count) const;
 

@@ -24,11 +24,13 @@ Error tooSmall(const std::string& folder, std::uint64_t needed, std::uint64_t av
 /// The disk, a quota or a limit on the size of files ended while it was written.
 Error writeFault(const std::string& folder, std::uint64_t needed, int systemError)
 {
+  const std::string left = mebibytes(diskSpaceOf(folder).freeBytes) + " are free now";
   return makeError(Error::Kind::Unwritable,
-    "cannot write a temporary file in '" + folder + "': " + std::strerror(systemError) +
-      "; it needs " + mebibytes(needed) + ", and " + mebibytes(diskSpaceOf(folder).freeBytes) +
-      " are free now; choose another folder for temporary files (--temp) or a higher memory "
-      "limit (--memory)");
+    "cannot write a temporary file in '" + folder + "': " + std::strerror(systemError) + "; " +
+      (needed == 0 ? left
+                   : "it needs " + mebibytes(needed) + ", and " + left +
+            "; choose another folder for temporary files (--temp) or a higher memory "
+            "limit (--memory)"));
 }
 
 Error systemError(const std::string& doing, const std::string& folder)

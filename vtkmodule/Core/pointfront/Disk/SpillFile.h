@@ -28,7 +28,8 @@ public:
   /// Ranges from so many bytes on go past the page cache.
   static constexpr std::size_t leastDirectBytes = std::size_t(128) << 10;
 
-  /// `bytes` is what will be written; a disk with less free space is refused before any work.
+  /// `bytes` is what will be written (0: not known); a disk with less free space is refused before
+  /// any work.
   static Result<std::unique_ptr<SpillFile>> create(
     const std::string& folder, std::uint64_t bytes, Way way = Way::PastCache);
   ~SpillFile();

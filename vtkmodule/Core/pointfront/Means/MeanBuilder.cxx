@@ -70,6 +70,7 @@ void MeanBuilder::adopt(Branch& parent, std::vector<Branch> children)
     emit(*child.node, child.view, child.held);
     parent.node->children.push_back(std::move(child.node));
   }
+  adoptEmitted(children.size());
 }
 
 OpenSubtree MeanBuilder::opened(Branch branch)

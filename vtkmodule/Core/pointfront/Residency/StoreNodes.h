@@ -71,9 +71,9 @@ public:
   // The functions that the scheduler calls.
   std::optional<Urgency> next() const; ///< urgency of the first that waits and fits
   std::optional<Task> begin(); ///< takes that; none when it does not fit any more
-  /// Takes what begin() takes and what comes behind it, for a source that is better read so: nodes
-  /// up to `bytes` in memory or `most` of them, or one page of rows. `stop` is set when nobody
-  /// wants any of them any more.
+  /// Takes what begin() takes and what lies near it in the file, or else comes behind it, for a
+  /// source that is better read so: nodes up to `bytes` in memory or `most` of them, or one page of
+  /// rows. `stop` is set when nobody wants any of them any more.
   /// They are added to `tasks`, which has room for `most`; what was added counts as begun even if
   /// this runs out of memory.
   void beginBatch(std::size_t bytes, std::size_t most, const std::shared_ptr<ReadStop>& stop,

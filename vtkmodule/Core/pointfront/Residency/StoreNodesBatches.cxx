@@ -18,10 +18,17 @@ void StoreNodes::beginBatch(std::size_t bytes, std::size_t most,
   }
   std::optional<Task> task = begin();
   const std::lock_guard<std::mutex> lock(mutex_);
+  std::vector<LoadRequest> near;
+  auto nearest = near.cbegin();
   std::size_t sum = 0;
   bool rereads = false;
   while (task)
   {
+    if (batch.nodes.empty() && task->node != noNode && !task->reread)
+    {
+      near = waiting_.near(task->node, bytes);
+      nearest = near.cbegin();
+    }
     sum += task->bytes;
     rereads = rereads || task->reread;
     batch.nodes.push_back(task->node);
@@ -32,7 +39,16 @@ void StoreNodes::beginBatch(std::size_t bytes, std::size_t most,
     {
       return;
     }
-    const auto choice = sum < bytes && tasks.size() < most ? choose() : std::nullopt;
+    if (sum >= bytes || tasks.size() >= most)
+    {
+      break;
+    }
+    if (nearest != near.cend())
+    {
+      task = beginNode({ *nearest++, 1, false, false });
+      continue;
+    }
+    const auto choice = choose();
     // A node that gives up old points for it is read by itself.
     task = choice && !choice->inPlaceOfOld ? beginNode(*choice) : std::nullopt;
   }

@@ -114,6 +114,37 @@ std::optional<WaitingReads::Choice> WaitingReads::choose(
   return std::nullopt;
 }
 
+std::vector<LoadRequest> WaitingReads::near(NodeIndex node, std::uint64_t reach) const
+{
+  const std::optional<std::uint64_t> begin = reader_->place(node);
+  if (!begin)
+  {
+    return {};
+  }
+  std::vector<std::pair<std::uint64_t, LoadRequest>> found;
+  for (const LoadRequest& request : queue_)
+  {
+    const std::optional<std::uint64_t> place =
+      request.optional ? std::nullopt : reader_->place(request.node);
+    const std::uint64_t distance = !place ? reach
+      : *place > *begin                   ? *place - *begin
+                                          : *begin - *place;
+    if (distance < reach)
+    {
+      found.emplace_back(distance, request);
+    }
+  }
+  std::stable_sort(
+    found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<LoadRequest> requests;
+  requests.reserve(found.size());
+  for (const auto& [distance, request] : found)
+  {
+    requests.push_back(request);
+  }
+  return requests;
+}
+
 void WaitingReads::take(const Choice& choice)
 {
   (choice.reread ? rereads_ : queue_).cancel(choice.request.node);

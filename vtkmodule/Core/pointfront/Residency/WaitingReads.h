@@ -61,6 +61,9 @@ public:
   /// The next read: it waits and fits. `oldMayGo`: nothing else can make room, so that the old
   /// points of a node in `cache` that nobody draws may go before its new ones come.
   std::optional<Choice> choose(const NodeCache& cache, bool oldMayGo) const;
+  /// Needed requests that lie less than `reach` bytes from a node in the file, the nearest first;
+  /// none where places are not known.
+  std::vector<LoadRequest> near(NodeIndex node, std::uint64_t reach) const;
   /// Removes a request whose read begins.
   void take(const Choice& choice);
   void clear();

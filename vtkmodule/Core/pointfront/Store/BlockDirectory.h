@@ -36,6 +36,8 @@ public:
   void addBlock(std::uint32_t bytes, std::uint32_t checksum, BlockCodec codec);
   /// Appends a node of another directory.
   void addNode(const BlockDirectory& other, std::uint32_t node);
+  /// The payload of a node lies there, in the file of this directory.
+  void setOffset(std::uint32_t node, std::uint64_t offset) { offsets_[node] = offset; }
   void reserve(std::size_t nodes);
   /// Appends all nodes of another directory as nodes whose payload lies in that other file.
   void addElsewhere(const BlockDirectory& other);

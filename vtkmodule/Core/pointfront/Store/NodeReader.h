@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -125,6 +126,9 @@ public:
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const = 0;
   /// Bytes that fetch() reads from the disk.
   virtual std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const = 0;
+  /// Where the bytes of a node begin in its file, if that is known without a read: nodes that lie
+  /// near each other cost fewer round trips if they are fetched together.
+  virtual std::optional<std::uint64_t> place(NodeIndex) const { return std::nullopt; }
   /// The number of the disk (file system) or server: equal for readers on the same one.
   virtual std::uint64_t disk() const { return 0; }
   /// The cost of its reads: a disk's, or those of a far source, which is better read by fetchAll().

@@ -64,6 +64,7 @@ public:
   {
     return begun(pointCount, 0);
   }
+  bool holds(std::uint32_t) const override { return true; }
   Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const override
   {
     NodePayload payload;
@@ -100,6 +101,10 @@ public:
     RawBytes bytes = begun(pointCount, payloadRecordBytes(blocksPerNode_));
     reads.push_back({ offsetOf(node), bytes.size - countBytes, bytes.data.get() + countBytes });
     return bytes;
+  }
+  bool holds(std::uint32_t node) const override
+  {
+    return file_.holds(offsetOf(node), payloadRecordBytes(blocksPerNode_));
   }
 
   Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const override

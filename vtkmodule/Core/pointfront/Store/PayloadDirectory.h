@@ -62,6 +62,8 @@ public:
     const ByteSource& file, std::uint32_t node, std::uint32_t pointCount) const;
   /// Checks and reads what fetch() gave. Touches no file.
   virtual Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const = 0;
+  /// Whether fetch() is answered from memory.
+  virtual bool holds(std::uint32_t node) const = 0;
 
   /// That of the store: read as a whole and checked for version 1, a record at a time from version
   /// 2 on. `file` must outlive it. `bytesElsewhere`: of a second file, from version 2 on.

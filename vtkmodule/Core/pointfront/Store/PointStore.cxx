@@ -350,6 +350,18 @@ std::size_t PointStore::storedBytes(NodeIndex node, const ColumnSelection& colum
     [](std::size_t sum, const BlockRuns::Run& run) { return sum + run.bytes; });
 }
 
+std::optional<std::uint64_t> PointStore::place(NodeIndex node) const
+{
+  if (!content_->directory->holds(node))
+  {
+    return std::nullopt;
+  }
+  const Result<RawBytes> record = content_->directory->fetch(*content_->file, node, 0);
+  const auto payload =
+    record ? content_->directory->decode(node, *record) : Result<NodePayload>(record.error());
+  return payload ? std::optional<std::uint64_t>(payload->blocks.front().offset) : std::nullopt;
+}
+
 std::uint64_t PointStore::disk() const
 {
   return content_->file->device();

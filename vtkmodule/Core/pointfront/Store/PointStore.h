@@ -43,6 +43,7 @@ public:
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   MissingRows* missingRows() const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::optional<std::uint64_t> place(NodeIndex node) const override;
   std::uint64_t disk() const override;
   ReadCost readCost() const override;
 

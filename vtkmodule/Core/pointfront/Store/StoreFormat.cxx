@@ -3,6 +3,7 @@
 #include "pointfront/Codec/ByteStream.h"
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Codec/SealedHeader.h"
+#include "pointfront/Store/StoreAssembly.h"
 
 #include <algorithm>
 #include <utility>
@@ -219,6 +220,17 @@ Result<StoreFooter> decodeFooter(
     return corruptStore(path, header.footerOffset, "the footer's column count is too large");
   }
   return footer;
+}
+
+Result<void> checkColumnCount(const AttributeSchema& schema)
+{
+  if (schema.size() > maxColumns)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "a store has at most " + std::to_string(maxColumns) + " attributes, not " +
+        std::to_string(schema.size()) + "; name the ones to store");
+  }
+  return {};
 }
 
 } // namespace pointfront

@@ -1,6 +1,7 @@
 #include "pointfront/Store/StoreWriter.h"
 
 #include "pointfront/Codec/Checksum.h"
+#include "pointfront/Disk/TemporaryFile.h"
 #include "pointfront/Store/BlockDirectory.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/DescriptionSection.h"
@@ -51,6 +52,7 @@ public:
     , schema_(schema)
     , payloads_(static_cast<std::uint32_t>(1 + schema.size()))
     , nodeRanges_(schema)
+    , late_(elsewhere ? std::move(elsewhere->late) : LatePieces(folderOf(file_->path())))
   {
     buffer_.reserve(writeBufferBytes);
     if (elsewhere)
@@ -68,6 +70,7 @@ public:
   Result<void> begin() { return put(std::vector<std::byte>(storeHeaderBytes)); }
 
   Result<PayloadId> append(const EncodedNode& node) override;
+  Result<PayloadId> appendLate(const EncodedNode& node) override;
   Result<PayloadId> append(const StoredPayload& payload, const GridBounds& bounds,
     const std::vector<ColumnRange>& ranges) override;
   Result<void> commit(StoreDescription description, const std::vector<Node>& nodes,
@@ -82,7 +85,9 @@ private:
   Result<void> flush();
   void takeFacts(
     std::uint32_t points, const GridBounds& bounds, const std::vector<ColumnRange>& ranges);
-  Result<void> putBlock(const EncodedNode::Block& block);
+  template <typename Put>
+  Result<PayloadId> take(const EncodedNode& node, const Put& putBlock);
+  Result<void> putLate(const std::vector<PayloadId>& payloads);
   Result<void> putWhole(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> putParts(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> finish(const StoreFooter& footer);
@@ -100,6 +105,7 @@ private:
   BlockDirectory payloads_; // by PayloadId
   std::vector<std::uint32_t> pointCounts_; // likewise
   NodeRangesWriter nodeRanges_; // likewise; not of payloads that are elsewhere
+  LatePieces late_; // by PayloadId
   GridBounds bounds_;
   std::vector<ColumnRange> ranges_;
   std::vector<std::byte> buffer_;
@@ -138,6 +144,7 @@ Result<WrittenPayloads> FileStoreWriter::written()
   result.pointCounts = pointCounts_;
   result.bounds = bounds_;
   result.ranges = ranges_;
+  result.late = late_;
   return result;
 }
 
@@ -166,14 +173,10 @@ Result<void> FileStoreWriter::flush()
   return done;
 }
 
-Result<void> FileStoreWriter::putBlock(const EncodedNode::Block& block)
-{
-  payloads_.addBlock(static_cast<std::uint32_t>(block.bytes.size()), block.checksum,
-    static_cast<BlockCodec>(block.codec));
-  return put(block.bytes);
-}
-
-Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
+/// Adds what the tables say of a node whose payload begins at the end of the file, until somebody
+/// says otherwise, and hands its blocks over.
+template <typename Put>
+Result<StoreWriter::PayloadId> FileStoreWriter::take(const EncodedNode& node, const Put& putBlock)
 {
   assert(node.columns.size() == schema_.size());
   if (node.pointCount > maxNodePoints)
@@ -182,21 +185,48 @@ Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
       "a node of " + std::to_string(node.pointCount) + " points is too large for '" +
         file_->path() + "'; use smaller nodes");
   }
-  const auto id = static_cast<PayloadId>(pointCounts_.size());
   payloads_.addNode(node.origin, end_);
-  if (Result<void> done = putBlock(node.positions); !done)
+  Result<void> done;
+  const auto takeBlock = [&](const EncodedNode::Block& block)
   {
-    return done.error();
-  }
-  for (std::size_t c = 0; c < node.columns.size(); ++c)
+    payloads_.addBlock(static_cast<std::uint32_t>(block.bytes.size()), block.checksum,
+      static_cast<BlockCodec>(block.codec));
+    done = done ? putBlock(block.bytes) : done;
+  };
+  takeBlock(node.positions);
+  std::for_each(node.columns.begin(), node.columns.end(), takeBlock);
+  takeFacts(node.pointCount, node.bounds, node.ranges);
+  return done ? Result<PayloadId>(static_cast<PayloadId>(pointCounts_.size() - 1)) : done.error();
+}
+
+Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
+{
+  return take(node, [this](const std::vector<std::byte>& bytes) { return put(bytes); });
+}
+
+Result<StoreWriter::PayloadId> FileStoreWriter::appendLate(const EncodedNode& node)
+{
+  late_.begin(static_cast<PayloadId>(pointCounts_.size()));
+  return take(node, [this](const std::vector<std::byte>& bytes) { return late_.append(bytes); });
+}
+
+/// Writes the late payloads, those of the last nodes of the table first.
+Result<void> FileStoreWriter::putLate(const std::vector<PayloadId>& payloads)
+{
+  for (auto id = payloads.rbegin(); id != payloads.rend(); ++id)
   {
-    if (Result<void> done = putBlock(node.columns[c]); !done)
+    if (!late_.contains(*id))
     {
-      return done.error();
+      continue;
+    }
+    const auto bytes = late_.read(*id);
+    payloads_.setOffset(*id, end_);
+    if (Result<void> done = bytes ? put(*bytes) : Result<void>(bytes.error()); !done)
+    {
+      return done;
     }
   }
-  takeFacts(node.pointCount, node.bounds, node.ranges);
-  return id;
+  return {};
 }
 
 Result<StoreWriter::PayloadId> FileStoreWriter::append(
@@ -308,6 +338,10 @@ Result<void> FileStoreWriter::commit(StoreDescription description, const std::ve
 {
   assert(description.schema == schema_);
   std::string fault = nodesFault(description, nodes, roots, payloads);
+  if (Result<void> done = fault.empty() ? putLate(payloads) : Result<void>(); !done)
+  {
+    return done;
+  }
   bool unknownCodec = false;
   fault = fault.empty() ? payloads_.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec)
                         : fault;
@@ -374,17 +408,6 @@ Result<void> FileStoreWriter::finish(const StoreFooter& footer)
   return done ? file_->publish() : done;
 }
 } // namespace
-
-Result<void> checkColumnCount(const AttributeSchema& schema)
-{
-  if (schema.size() > maxColumns)
-  {
-    return makeError(Error::Kind::BadArgument,
-      "a store has at most " + std::to_string(maxColumns) + " attributes, not " +
-        std::to_string(schema.size()) + "; name the ones to store");
-  }
-  return {};
-}
 
 Result<std::unique_ptr<StoreWriter>> assembleStore(std::unique_ptr<OutputFile> file,
   const AttributeSchema& schema, std::optional<WrittenPayloads> elsewhere)

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Disk/LatePieces.h"
 #include "pointfront/Store/BlockDirectory.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/NodeReader.h"
@@ -57,6 +58,7 @@ struct WrittenPayloads
   std::vector<std::uint32_t> pointCounts;
   GridBounds bounds;
   std::vector<ColumnRange> ranges; ///< range of all their points, one for each column
+  LatePieces late{ {} }; ///< those of which that file has nothing yet
 };
 
 /// Writes a store: payloads one after another, then the table. Whole or absent: writes an
@@ -80,6 +82,10 @@ public:
 
   /// Appends one node's payload; the id names it in commit().
   virtual Result<PayloadId> append(const EncodedNode& node) = 0;
+  /// The same for a node near a root: its payload is written by commit(), beside the tables, so
+  /// that who opens the store from afar gets it with them. Those of siblings lie side by side,
+  /// those of roots last.
+  virtual Result<PayloadId> appendLate(const EncodedNode& node) = 0;
 
   /// Appends the payload of a node of another store of the same schema as it lies there. The caller
   /// knows bounds and ranges of its points.

@@ -20,6 +20,15 @@ const char* const indexExtension = ".pfindex"; // `pointfront index` adds it to 
 /// First bytes of a far file: all that most kinds need to tell which kind it is and to describe it,
 /// 30 ms of a line of 100 Mbit/s.
 constexpr FirstBytes firstOfFar{ std::size_t(64) << 10, std::size_t(256) << 10 };
+/// A store's roots lie before its tables: a store of a million points comes whole, and of a large
+/// one what its far view draws.
+constexpr FirstBytes firstOfStore{ std::size_t(4) << 10, std::size_t(512) << 10 };
+
+bool isNamedAsStore(const std::string& address)
+{
+  const std::string name = address.substr(0, address.find_first_of("?#"));
+  return std::filesystem::path(name).extension() == ".pfront";
+}
 
 class StoreFile final : public StoredCloudFormat
 {
@@ -79,7 +88,7 @@ bool StoredCloudFormats::accepts(const std::string& path) const
 
 Result<std::shared_ptr<const ByteSource>> StoredCloudFormats::openFar(const std::string& address)
 {
-  return openBytes(address, firstOfFar);
+  return openBytes(address, isNamedAsStore(address) ? firstOfStore : firstOfFar);
 }
 
 Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::open(const std::string& path) const

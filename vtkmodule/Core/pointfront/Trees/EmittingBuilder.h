@@ -61,7 +61,22 @@ protected:
   {
     const CpuStopwatch watch(seconds_.encode);
     EncodedNode payload = emitter_.emit(node, records, points);
-    emitted_.push_back({ &node, std::move(payload) });
+    emitted_.push_back({ &node, std::move(payload), node.row.pointsBelow });
+  }
+  /// Says that the last `count` nodes that were emitted have one parent.
+  void adoptEmitted(std::size_t count)
+  {
+    std::uint64_t below = 0;
+    for (auto node = emitted_.end() - static_cast<std::ptrdiff_t>(count); node != emitted_.end();
+         ++node)
+    {
+      below += node->node->row.pointsBelow;
+    }
+    for (auto node = emitted_.end() - static_cast<std::ptrdiff_t>(count); node != emitted_.end();
+         ++node)
+    {
+      node->pointsAround = below;
+    }
   }
   /// With all records that it holds, of `recordBytes` each. Null for an empty set of points.
   std::unique_ptr<BuiltNode> emitRoot(OpenSubtree subtree, std::size_t recordBytes)

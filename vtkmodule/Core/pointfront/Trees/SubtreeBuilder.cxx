@@ -121,6 +121,7 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     emit(*child.node, points.records, child.held);
     joined.node->children.push_back(std::move(child.node));
   }
+  adoptEmitted(children.size());
   return joined;
 }
 

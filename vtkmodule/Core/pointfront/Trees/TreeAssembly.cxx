@@ -117,8 +117,13 @@ Result<void> TreeAssembly::buildPart(std::uint32_t node, ReadAhead& parts, TreeB
     {
       root = builder.close(std::move(subtree));
     }
+    std::vector<EmittedNode> emitted = builder.takeEmitted();
+    for (EmittedNode& each : emitted)
+    {
+      each.pointsAround = each.node == root.get() ? UINT64_MAX : each.pointsAround;
+    }
     std::unique_lock<std::mutex> lock(mutex_);
-    waiting_[turns_[node]] = builder.takeEmitted();
+    waiting_[turns_[node]] = std::move(emitted);
     if (parent == PartNode::none)
     {
       roots_[part.layer] = std::move(root);
@@ -175,7 +180,8 @@ Result<void> TreeAssembly::writeInTurn()
       const CpuStopwatch watch(seconds);
       for (const EmittedNode& node : emitted)
       {
-        const auto payload = writer_.append(node.payload);
+        const auto payload = node.pointsAround >= plan_.lateFrom ? writer_.appendLate(node.payload)
+                                                                 : writer_.append(node.payload);
         if (!payload)
         {
           return payload.error(); // the crew stops: nobody waits for `writing_`

@@ -27,6 +27,8 @@ struct AssemblyPlan
   /// The records of a part; from any thread.
   ReadAhead::Load load;
   ReadAheadPlan readAhead; ///< nothing for parts that are in memory
+  /// Nodes around which there are so many points of the input go beside the store's tables.
+  std::uint64_t lateFrom = UINT64_MAX;
   std::function<std::unique_ptr<TreeBuilder>()> builder; ///< one for each thread
 };
 

@@ -16,6 +16,8 @@ struct EmittedNode
 {
   BuiltNode* node = nullptr; ///< where the payload's id goes
   EncodedNode payload;
+  /// Points of the input below the parent, as far as the builder knows; below a root: the most.
+  std::uint64_t pointsAround = 0;
 };
 
 /// A subtree whose nodes above still want something of it.

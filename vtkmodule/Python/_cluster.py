@@ -310,7 +310,7 @@ def _client(chosen):
     workers = chosen.local or max(1, (os.cpu_count() or 2) // 2)
     cluster = distributed.LocalCluster(
         n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,
-        dashboard_address=None, silence_logs=50)
+        dashboard_address="127.0.0.1:0", scheduler_kwargs={"dashboard": False}, silence_logs=50)
     return distributed.Client(cluster), cluster
 
 

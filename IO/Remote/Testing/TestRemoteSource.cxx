@@ -12,6 +12,7 @@
 #include <atomic>
 #include <chrono>
 #include <cstring>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
@@ -109,6 +110,33 @@ TEST(RemoteSource, EndsThatAreHeldAreNotAskedForAgain)
   EXPECT_EQ(read(100, 20000), 20100u - 8192u);
   EXPECT_LE(read(50000, 50000), 40000u + 4096u);
   EXPECT_LE(read(0, 100000), 100000u - 8192u - 10000u + 4096u); // 100000 before
+}
+
+/// The tail begins in the middle of a block of the cache, which keeps whole ones only.
+TEST(RemoteSource, WhatTheTailHasInPartIsThereOffline)
+{
+  const std::string file = words(100000);
+  SmallServer server(file);
+  addRemoteOpeners();
+  const std::filesystem::path folder =
+    std::filesystem::path(testing::TempDir()) / ("pointfront-tail-" + std::to_string(::getpid()));
+  const std::string settings = "#far:cache_size=1G&cache=" + folder.string();
+  const auto read = [&](const std::string& more)
+  {
+    const auto source = openBytes(server.address() + settings + more, { 4096, 10000 });
+    EXPECT_TRUE(source) << source.error().what;
+    for (const std::size_t offset : { 85920u, 86000u, 90000u })
+    {
+      const Result<RawBytes> bytes = source ? (*source)->readAt(offset, 9000) : source.error();
+      EXPECT_TRUE(bytes) << offset << ": " << bytes.error().what;
+      EXPECT_TRUE(bytes && std::memcmp(bytes->data.get(), file.data() + offset, 9000) == 0);
+    }
+  };
+  read("");
+  const unsigned before = server.requests;
+  read("&offline=1");
+  EXPECT_EQ(server.requests, before);
+  std::filesystem::remove_all(folder);
 }
 
 TEST(RemoteOpener, AStopEndsAnOpening)

@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -15,7 +16,7 @@ import unittest
 SUPPORT = pathlib.Path(__file__).resolve().parents[3] / "Testing" / "Support"
 sys.path.insert(0, str(SUPPORT))
 
-from bucket_server import BucketServer  # pylint: disable=wrong-import-position
+from bucket_server import HERE, BucketServer  # pylint: disable=wrong-import-position
 
 from pointfront._host import TOOL  # pylint: disable=wrong-import-position
 
@@ -36,6 +37,11 @@ class BucketBuild(unittest.TestCase):
     def setUpClass(cls):
         cls.place = tempfile.TemporaryDirectory()
         cls.root = pathlib.Path(cls.place.name).resolve()
+        # Another cluster on this machine may have Dask's usual port, and nobody is told of that.
+        cls.usual = socket.socket()
+        with contextlib.suppress(OSError):
+            cls.usual.bind((HERE, 8787))
+            cls.usual.listen()
         cls.inputs = cls.root / "inputs"
         cls.inputs.mkdir()
         for name, seed in (("a", "3"), ("b", "4")):
@@ -49,6 +55,7 @@ class BucketBuild(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
+        cls.usual.close()
         cls.place.cleanup()
 
     @staticmethod

@@ -47,9 +47,9 @@ struct Answer
   }
 };
 
-constexpr std::size_t pointCount = 60000;
+constexpr std::size_t pointCount = 200000;
 
-/// A store of some 300 nodes behind a line of 20 ms.
+/// A store of some 1,000 nodes behind a line of 20 ms, larger than what comes when it is opened.
 class FarQueries : public StoreBuildTest
 {
 protected:
@@ -86,6 +86,31 @@ TEST_F(FarQueries, ReadGroupsBesideEachOtherAndGiveTheSameAnswer)
   EXPECT_GT(line_->readsAtOnceMost, 1u);
 }
 
+/// The nodes around which there are a 128th of all points lie side by side at the end of the file.
+/// In the order in which a builder finishes them they would be some sixty requests.
+TEST_F(FarQueries, TheUpperLevelsOfAStoreAreOneRequest)
+{
+  const Hierarchy& table = *far_->hierarchy();
+  std::vector<WantedNode> wanted;
+  for (NodeIndex n = 0; n < table.nodeCount(); ++n)
+  {
+    const Node row = table.node(n);
+    if (row.parent == noNode ||
+      table.node(row.parent).pointsBelow - table.node(row.parent).pointCount >=
+        std::max<std::uint64_t>(pointCount / 128, 4 * options_.nodePoints))
+    {
+      wanted.push_back({ n, everyColumn(far_->description().schema) });
+    }
+  }
+  ASSERT_GT(wanted.size(), 100u);
+  line_->reset();
+  for (const auto& fetched : far_->fetchAll(wanted, ReadStop{ false }))
+  {
+    ASSERT_TRUE(fetched) << fetched.error().what;
+  }
+  EXPECT_EQ(line_->requests, 1u);
+}
+
 TEST_F(FarQueries, KeepToTheirMemory)
 {
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
@@ -115,7 +140,7 @@ TEST_F(FarQueries, KeepToTheirMemory)
 
 TEST_F(FarQueries, EndAtOnceWhenTheyAreStoppedWhileTheLineHangs)
 {
-  line_->hangAt = bytes().size() / 2;
+  line_->hangAt = bytes().size() / 8;
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
   const Clock::time_point begin = Clock::now();
   QueryOptions options;
@@ -132,7 +157,7 @@ TEST_F(FarQueries, EndAtOnceWhenTheyAreStoppedWhileTheLineHangs)
 TEST_F(FarQueries, WhatTheConsumerRefusesEndsTheReadsUnderWay)
 {
   const QueryPlan plan = QueryPlan::make(*far_, {}).value();
-  const std::size_t middle = bytes().size() / 2;
+  const std::size_t middle = bytes().size() / 4;
   std::size_t batches = 0;
   const auto report = plan.run(*far_, {},
     [&](QueryBatch&) -> Result<void>
@@ -149,7 +174,7 @@ TEST_F(FarQueries, WhatTheConsumerRefusesEndsTheReadsUnderWay)
 TEST_F(FarQueries, SayTheSameOfADamagedNode)
 {
   std::vector<std::byte> bytes = fileBytes(options_.outputPath);
-  bytes[bytes.size() / 3] ^= std::byte(1);
+  bytes[bytes.size() / 8] ^= std::byte(1);
   writeFile(options_.outputPath, bytes);
   const auto near = PointStore::open(options_.outputPath);
   ASSERT_TRUE(near);

@@ -1,4 +1,5 @@
 #include "CountedBytes.h"
+#include "FilesInTheMaking.h"
 #include "SampleStore.h"
 #include "StoreBuildTest.h"
 
@@ -7,9 +8,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <memory>
 #include <string>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 #include <vector>
 
 namespace pointfront
@@ -100,6 +105,37 @@ TEST(LatePayloads, AreInAStoreThatRefersToTheWriter)
   }
 }
 
+/// A limit on the size of files, which only the late payloads reach.
+TEST(LatePayloads, AreToldOfWhereTheyDoNotFitAndLeaveNothing)
+{
+  const SampleStore sample = makeSample(50000);
+  const std::string path = temporaryPath("a.pfront");
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+  {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit limit{ 100000, 100000 };
+    setrlimit(RLIMIT_FSIZE, &limit);
+    auto writer = StoreWriter::create(path, sample.description.schema);
+    Result<StoreWriter::PayloadId> done = 0u;
+    for (std::size_t node = 0; writer && done && node < sample.nodes.size(); ++node)
+    {
+      done = (*writer)->appendLate(encodeNode(sample.points[node], sample.description.schema));
+    }
+    writer = makeError(Error::Kind::Cancelled, "destroyed");
+    const bool told = !done && done.error().kind == Error::Kind::Unwritable &&
+      done.error().what.find("cannot write a temporary file in '") == 0;
+    const std::filesystem::directory_iterator files(std::filesystem::path(path).parent_path());
+    const bool left = std::any_of(begin(files), end(files),
+      [](const auto& file) { return file.path().extension() == ".spill"; });
+    _exit(told && !left && filesInTheMaking(path).empty() ? 0 : 1);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+}
+
 using LateNodes = test::StoreBuildTest;
 constexpr std::uint64_t lateFrom = 4 * 1000; // a 128th of the points is less than four leaves
 
@@ -121,6 +157,23 @@ TEST_F(LateNodes, OfABuiltStoreComeWithTheAnswerThatOpensIt)
   }
   EXPECT_EQ(line->rounds(), 1u);
   EXPECT_LT(line->bytes, std::filesystem::file_size(options_.outputPath) / 2);
+}
+
+/// The tables alone are larger than what comes when it is opened, as those of 10^9 points are: the
+/// root comes with the second answer.
+TEST_F(LateNodes, OfAStoreWithLargeTablesComeWithThese)
+{
+  options_.nodePoints = 16;
+  build(test::hills(150000, 1e6));
+  const auto line = CountedBytes::add();
+  line->cost = { 0.05, 12.5e6, 8, std::size_t(1) << 20 };
+  const auto far =
+    StoredCloudFormats::ofProcess().open(CountedBytes::addressOf(options_.outputPath));
+  ASSERT_TRUE(far) << far.error().what;
+  ASSERT_GT((*far)->hierarchy()->nodeCount() * sizeof(Node), std::size_t(1) << 20);
+  ASSERT_TRUE((*far)->read((*far)->hierarchy()->roots().front(), {}));
+  EXPECT_EQ(line->rounds(), 2u);
+  EXPECT_LE(line->bytes, 2000000u);
 }
 
 TEST_F(LateNodes, OfABuiltStoreLieBesideTheirSiblings)

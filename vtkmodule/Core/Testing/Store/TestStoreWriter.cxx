@@ -173,7 +173,8 @@ TEST(StoreWriter, KilledBuildBlocksNothingAndOpensNowhere)
     auto writer = StoreWriter::create(path, sample.description.schema);
     for (const NodeColumns& points : sample.points)
     {
-      if (!writer || !(*writer)->append(encodeNode(points, sample.description.schema)))
+      const EncodedNode node = encodeNode(points, sample.description.schema);
+      if (!writer || !(*writer)->append(node) || !(*writer)->appendLate(node))
       {
         _exit(1);
       }
@@ -184,7 +185,7 @@ TEST(StoreWriter, KilledBuildBlocksNothingAndOpensNowhere)
   ASSERT_EQ(waitpid(child, &status, 0), child);
   ASSERT_TRUE(WIFSIGNALED(status));
   const std::vector<std::string> left = filesInTheMaking(path);
-  ASSERT_EQ(left.size(), 1u);
+  ASSERT_EQ(left.size(), 1u) << "late payloads have no file with a name";
   ASSERT_GT(fs::file_size(left[0]), 1000000u);
   EXPECT_FALSE(PointStore::open(left[0]));
   EXPECT_FALSE(PointStore::looksLikeStore(left[0]));

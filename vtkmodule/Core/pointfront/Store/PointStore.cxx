@@ -20,7 +20,9 @@ namespace
 {
 /// Bytes of each table of a far store that are read with its description and kept: all of a small
 /// store, the rows of the upper levels of a large one, since nodes lie breadth first.
-constexpr std::uint64_t heldTableBytes = std::uint64_t(192) * nodePageBytes;
+constexpr std::uint64_t heldTableBytes = std::uint64_t(64) * nodePageBytes;
+/// Likewise of the payloads before the tables: builders put roots and the nodes below them there.
+constexpr std::uint64_t heldPayloadBytes = std::uint64_t(256) << 10;
 
 /// Bytes at its end that a far store is asked for when it is opened: in most of them they hold all
 /// that is needed before the first node.
@@ -99,8 +101,8 @@ Result<std::optional<PayloadElsewhere>> readElsewhere(
   return elsewhere;
 }
 
-/// A far store with its description, its second file's name and the beginnings of its tables in
-/// memory, by one read.
+/// A far store with its description, its second file's name, the beginnings of its tables and the
+/// payloads before them in memory, by one read.
 Result<std::shared_ptr<const ByteSource>> holdTables(
   std::shared_ptr<const ByteSource> file, const StoreFooter& footer)
 {
@@ -118,6 +120,9 @@ Result<std::shared_ptr<const ByteSource>> holdTables(
           whole ? section.bytes : std::min(section.bytes, heldTableBytes)) });
     }
   }
+  const std::uint64_t payloadEnd = payloadEndOf(footer);
+  const std::uint64_t held = std::min(heldPayloadBytes, payloadEnd - storeHeaderBytes);
+  parts.push_back({ payloadEnd - held, static_cast<std::size_t>(held) });
   return HeldBytes::hold(std::move(file), parts);
 }
 

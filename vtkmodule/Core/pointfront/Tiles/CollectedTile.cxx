@@ -2,6 +2,7 @@
 
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Disk/ByteSource.h"
+#include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <algorithm>
 #include <cmath>
@@ -120,8 +121,8 @@ Bounds takeBounds(ByteReader& in)
 
 Result<TileIdentity> TileIdentity::of(const std::string& path)
 {
-  const Result<std::shared_ptr<const ByteSource>> source =
-    openBytes(path, { identityHead, identityTail });
+  // With what the tile needs when it is opened, identityHead and identityTail at least.
+  const Result<std::shared_ptr<const ByteSource>> source = StoredCloudFormats::openFar(path);
   if (!source)
   {
     return source.error();

@@ -20,9 +20,8 @@ const char* const indexExtension = ".pfindex"; // `pointfront index` adds it to 
 /// First bytes of a far file: all that most kinds need to tell which kind it is and to describe it,
 /// 30 ms of a line of 100 Mbit/s.
 constexpr FirstBytes firstOfFar{ std::size_t(64) << 10, std::size_t(256) << 10 };
-/// A store's roots lie before its tables: a store of a million points comes whole, and of a large
-/// one what its far view draws.
-constexpr FirstBytes firstOfStore{ std::size_t(4) << 10, std::size_t(512) << 10 };
+/// The roots of a store lie before its tables, and the nodes below them before these.
+constexpr FirstBytes firstOfStore{ firstOfFar.head, std::size_t(512) << 10 };
 
 bool isNamedAsStore(const std::string& address)
 {

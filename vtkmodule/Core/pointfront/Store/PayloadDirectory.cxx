@@ -17,17 +17,6 @@ namespace
 /// and the page cache hand out whole pages anyway.
 constexpr std::uint64_t mergeGapBytes = 4096;
 
-/// Payloads lie between the header and the first section.
-std::uint64_t payloadEndOf(const StoreFooter& footer)
-{
-  std::uint64_t end = UINT64_MAX;
-  for (const SectionEntry& section : footer.sections)
-  {
-    end = std::min(end, section.offset);
-  }
-  return end;
-}
-
 Error unknownCodecIn(const std::string& path, const std::string& codec)
 {
   return makeError(Error::Kind::Unsupported,

@@ -222,6 +222,16 @@ Result<StoreFooter> decodeFooter(
   return footer;
 }
 
+std::uint64_t payloadEndOf(const StoreFooter& footer)
+{
+  std::uint64_t end = UINT64_MAX;
+  for (const SectionEntry& section : footer.sections)
+  {
+    end = std::min(end, section.offset);
+  }
+  return end;
+}
+
 Result<void> checkColumnCount(const AttributeSchema& schema)
 {
   if (schema.size() > maxColumns)

@@ -84,6 +84,9 @@ Result<StoreHeader> decodeHeader(
 Result<StoreFooter> decodeFooter(
   const std::byte* data, const StoreHeader& header, const std::string& path);
 
+/// Payloads lie between the header and the first section.
+std::uint64_t payloadEndOf(const StoreFooter& footer);
+
 /// The metadata record that names the tiles of a collection; null: there is none.
 constexpr const char* collectionOwner = "pointfront";
 constexpr std::uint16_t collectionId = 2;

@@ -101,6 +101,16 @@ Result<std::optional<PayloadElsewhere>> readElsewhere(
   return elsewhere;
 }
 
+/// Bytes of payloads to be held, with `behind` bytes up to the end of the file. The last bytes have
+/// come: no more than they have, unless that is next to nothing.
+std::uint64_t heldPayloads(std::uint64_t behind)
+{
+  constexpr std::uint64_t least = std::uint64_t(64) << 10;
+  return behind + least <= PointStore::lastBytes
+    ? std::min(heldPayloadBytes, PointStore::lastBytes - behind)
+    : heldPayloadBytes;
+}
+
 /// A far store with its description, its second file's name, the beginnings of its tables and the
 /// payloads before them in memory, by one read.
 Result<std::shared_ptr<const ByteSource>> holdTables(
@@ -121,7 +131,8 @@ Result<std::shared_ptr<const ByteSource>> holdTables(
     }
   }
   const std::uint64_t payloadEnd = payloadEndOf(footer);
-  const std::uint64_t held = std::min(heldPayloadBytes, payloadEnd - storeHeaderBytes);
+  const std::uint64_t held =
+    std::min(heldPayloads(file->bytes() - payloadEnd), payloadEnd - storeHeaderBytes);
   parts.push_back({ payloadEnd - held, static_cast<std::size_t>(held) });
   return HeldBytes::hold(std::move(file), parts);
 }

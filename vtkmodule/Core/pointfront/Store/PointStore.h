@@ -17,6 +17,9 @@ namespace pointfront
 class PointStore final : public StoredCloud
 {
 public:
+  /// So many of the last bytes of a far store are worth having at once: they have the tables of
+  /// most stores and what a first picture shows.
+  static constexpr std::size_t lastBytes = std::size_t(512) << 10;
   /// A preview (PreviewRecord.h) opens while its build runs, and stays readable after it; that of a
   /// killed build is Truncated.
   /// Errors  Unsupported, too, for a collection: its points are heads of tiles.

@@ -21,7 +21,7 @@ const char* const indexExtension = ".pfindex"; // `pointfront index` adds it to 
 /// 30 ms of a line of 100 Mbit/s.
 constexpr FirstBytes firstOfFar{ std::size_t(64) << 10, std::size_t(256) << 10 };
 /// The roots of a store lie before its tables, and the nodes below them before these.
-constexpr FirstBytes firstOfStore{ firstOfFar.head, std::size_t(512) << 10 };
+constexpr FirstBytes firstOfStore{ firstOfFar.head, PointStore::lastBytes };
 
 bool isNamedAsStore(const std::string& address)
 {

@@ -136,44 +136,50 @@ TEST(LatePayloads, AreToldOfWhereTheyDoNotFitAndLeaveNothing)
   EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
 }
 
-using LateNodes = test::StoreBuildTest;
+class LateNodes : public test::StoreBuildTest
+{
+protected:
+  /// Builds a store and opens it from afar, as programs do.
+  std::shared_ptr<const StoredCloud> builtFar(std::uint32_t nodePoints, std::size_t points)
+  {
+    options_.nodePoints = nodePoints;
+    build(test::hills(points, 1e6));
+    line_ = CountedBytes::add();
+    line_->cost = { 0.05, 12.5e6, 8, std::size_t(1) << 20 };
+    const auto far =
+      StoredCloudFormats::ofProcess().open(CountedBytes::addressOf(options_.outputPath));
+    EXPECT_TRUE(far) << far.error().what;
+    return far ? *far : nullptr;
+  }
+  std::shared_ptr<CountedBytes> line_;
+};
 constexpr std::uint64_t lateFrom = 4 * 1000; // a 128th of the points is less than four leaves
 
 /// The root and its children come with the tables of a store that has far more bytes.
 TEST_F(LateNodes, OfABuiltStoreComeWithTheAnswerThatOpensIt)
 {
-  options_.nodePoints = 1000;
-  build(test::hills(400000, 1e6));
-  const auto line = CountedBytes::add();
-  line->cost = { 0.05, 12.5e6, 8, std::size_t(1) << 20 };
-  const auto far =
-    StoredCloudFormats::ofProcess().open(CountedBytes::addressOf(options_.outputPath));
-  ASSERT_TRUE(far) << far.error().what;
-  const Node root = (*far)->hierarchy()->node(0);
+  const auto far = builtFar(1000, 400000);
+  ASSERT_TRUE(far);
+  const Node root = far->hierarchy()->node(0);
   ASSERT_GT(root.childCount, 1);
   for (NodeIndex n = 0; n < root.firstChild + root.childCount; ++n)
   {
-    ASSERT_TRUE((*far)->read(n, {}));
+    ASSERT_TRUE(far->read(n, {}));
   }
-  EXPECT_EQ(line->rounds(), 1u);
-  EXPECT_LT(line->bytes, std::filesystem::file_size(options_.outputPath) / 2);
+  EXPECT_EQ(line_->rounds(), 1u);
+  EXPECT_LT(line_->bytes, std::filesystem::file_size(options_.outputPath) / 2);
 }
 
 /// The tables alone are larger than what comes when it is opened, as those of 10^9 points are: the
 /// root comes with the second answer.
 TEST_F(LateNodes, OfAStoreWithLargeTablesComeWithThese)
 {
-  options_.nodePoints = 16;
-  build(test::hills(150000, 1e6));
-  const auto line = CountedBytes::add();
-  line->cost = { 0.05, 12.5e6, 8, std::size_t(1) << 20 };
-  const auto far =
-    StoredCloudFormats::ofProcess().open(CountedBytes::addressOf(options_.outputPath));
-  ASSERT_TRUE(far) << far.error().what;
-  ASSERT_GT((*far)->hierarchy()->nodeCount() * sizeof(Node), std::size_t(1) << 20);
-  ASSERT_TRUE((*far)->read((*far)->hierarchy()->roots().front(), {}));
-  EXPECT_EQ(line->rounds(), 2u);
-  EXPECT_LE(line->bytes, 2000000u);
+  const auto far = builtFar(16, 150000);
+  ASSERT_TRUE(far);
+  ASSERT_GT(far->hierarchy()->nodeCount() * sizeof(Node), std::size_t(1) << 20);
+  ASSERT_TRUE(far->read(far->hierarchy()->roots().front(), {}));
+  EXPECT_EQ(line_->rounds(), 2u);
+  EXPECT_LE(line_->bytes, 2000000u);
 }
 
 TEST_F(LateNodes, OfABuiltStoreLieBesideTheirSiblings)

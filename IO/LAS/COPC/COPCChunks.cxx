@@ -45,13 +45,14 @@ Result<std::vector<std::byte>> compressed(
 } // namespace
 
 COPCChunks::COPCChunks(const LASPointLayout& layout, const std::string& path, OutputFile& file,
-  std::uint64_t offset, const COPCMemory& memory)
+  std::uint64_t offset, const COPCMemory& memory, std::string temporaryFolder)
   : layout_(layout)
   , path_(path)
   , file_(file)
   , end_(offset)
   , nodeBytes_(memory.nodeBytes)
   , threads_(memory.threads)
+  , late_(std::move(temporaryFolder))
 {
 }
 
@@ -112,9 +113,11 @@ Result<void> COPCChunks::close(int level)
     {
       Open& parent = open_[static_cast<std::size_t>(l) - 1];
       parent.exists = true;
+      parent.inner = true;
       parent.cell = open.cell / 2u;
     }
     Pending pending;
+    pending.inner = open.inner;
     pending.node.level = l;
     pending.node.cell = open.cell;
     pending.node.points = open.points;
@@ -160,22 +163,55 @@ Result<void> COPCChunks::writeUntil(std::size_t left)
       return makeError(Error::Kind::BadArgument,
         path_ + ": the points of one place take more bytes than COPC can count");
     }
-    first.node.offset = end_;
     first.node.bytes = static_cast<std::uint32_t>(chunk->size());
-    if (auto done = file_.append(chunk->data(), chunk->size()); !done)
+    const std::size_t place = nodes_.size();
+    nodes_.push_back(first.node);
+    if (first.inner)
+    {
+      late_.begin(static_cast<std::uint32_t>(place));
+    }
+    if (auto done = first.inner ? late_.append(*chunk) : write(place, *chunk); !done)
     {
       return done;
     }
-    end_ += chunk->size();
-    chunks_.push_back(nodes_.size());
-    nodes_.push_back(first.node);
   }
   return {};
 }
 
+Result<void> COPCChunks::write(std::size_t node, const std::vector<std::byte>& chunk)
+{
+  nodes_[node].offset = end_;
+  end_ += chunk.size();
+  chunks_.push_back(node);
+  return file_.append(chunk.data(), chunk.size());
+}
+
 Result<void> COPCChunks::settle()
 {
-  return writeUntil(0);
+  if (auto done = writeUntil(0); !done)
+  {
+    return done;
+  }
+  std::vector<std::uint32_t> inner;
+  for (std::uint32_t place = 0; place < nodes_.size(); ++place)
+  {
+    if (late_.contains(place))
+    {
+      inner.push_back(place);
+    }
+  }
+  // Cells of one level have come in an order of space.
+  std::stable_sort(inner.begin(), inner.end(),
+    [&](std::uint32_t a, std::uint32_t b) { return nodes_[a].level > nodes_[b].level; });
+  for (const std::uint32_t place : inner)
+  {
+    const auto chunk = late_.read(place);
+    if (auto done = chunk ? write(place, *chunk) : Result<void>(chunk.error()); !done)
+    {
+      return done;
+    }
+  }
+  return {};
 }
 
 std::vector<std::byte> COPCChunks::table() const

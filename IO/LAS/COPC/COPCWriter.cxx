@@ -110,6 +110,10 @@ struct COPCWriter::State
     end += bytes.size();
     return file->append(bytes.data(), bytes.size());
   }
+  std::string temporaryFolder() const
+  {
+    return options.temporaryFolder.empty() ? folderOf(path) : options.temporaryFolder;
+  }
   Error cancelled() const { return makeError(Error::Kind::Cancelled, path + ": export cancelled"); }
 
   void countTimes();
@@ -170,9 +174,8 @@ Result<void> COPCWriter::begin(const SinkDescription& description)
     return file.error();
   }
   state.file = std::move(*file);
-  const std::string& folder = state.options.temporaryFolder;
   state.records.emplace(COPCRecords::Options{ state.plan.layout.pointBytes, memory->recordBytes,
-    memory->mergeBytes, folder.empty() ? folderOf(state.path) : folder, description.pointCount });
+    memory->mergeBytes, state.temporaryFolder(), description.pointCount });
   return {};
 }
 
@@ -360,7 +363,8 @@ Result<void> COPCWriter::finish()
     return done;
   }
   COPCMemory::giveBack();
-  COPCChunks chunks(state.plan.layout, state.path, *state.file, state.end, state.memory);
+  COPCChunks chunks(
+    state.plan.layout, state.path, *state.file, state.end, state.memory, state.temporaryFolder());
   if (auto done = state.writeNodes(grid, chunks); !done)
   {
     return done;

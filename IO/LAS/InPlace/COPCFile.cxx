@@ -114,6 +114,7 @@ public:
     return readTogether(*points_, nodes, stop);
   }
   std::size_t storedBytes(const ForeignNode& node) const override { return node.bytes; }
+  std::optional<std::uint64_t> place(const ForeignNode& node) const override { return node.offset; }
   std::vector<Result<ForeignPage>> readPages(const std::vector<ForeignNode>& pages) const override
   {
     return readCOPCPages(*points_, pages, file_.description.path);

@@ -1,3 +1,4 @@
+#include "COPCChunks.h"
 #include "COPCGrid.h"
 #include "COPCLevels.h"
 #include "COPCPages.h"
@@ -6,9 +7,13 @@
 #include "LAZIntegerDecoder.h"
 #include "LAZIntegerEncoder.h"
 
+#include "pointfront/Disk/OutputFile.h"
+#include "pointfront/Disk/TemporaryFile.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -218,6 +223,47 @@ TEST(COPCPages, LargeTreesAreSeveralPagesThatNameEachNodeOnce)
   EXPECT_EQ(readPages(more, 777, 777, more.rootBytes, found), 1u + 32u * 32u);
   EXPECT_EQ(found.size(), nodes.size());
   EXPECT_LT(more.rootBytes, 64u << 10);
+}
+
+TEST(COPCChunks, InnerNodesFollowTheLeavesDeepestFirst)
+{
+  const LASPointLayout layout = makeLASPointLayout(6, {});
+  const std::string path = (std::filesystem::temp_directory_path() / "chunks.copc.laz").string();
+  auto file = OutputFile::create(path);
+  ASSERT_TRUE(file.ok());
+  COPCMemory memory;
+  memory.nodeBytes = 2000; // the root's points are compressed while they come
+  COPCChunks chunks(layout, path, **file, 0, memory, folderOf(path));
+  // Two cells of level 1, each with two of level 2. An inner node's points come between those of
+  // its children.
+  const std::vector<std::byte> record(layout.pointBytes);
+  for (unsigned x = 0; x < 4; ++x)
+  {
+    ASSERT_TRUE(chunks.close(x % 2 == 0 ? 1 : 2).ok());
+    for (int n = 0; n < 100; ++n)
+    {
+      ASSERT_TRUE(chunks.add(0, { 0, 0, 0 }, record.data()).ok());
+      ASSERT_TRUE(chunks.add(1, { x / 2, 0, 0 }, record.data()).ok());
+      ASSERT_TRUE(chunks.add(2, { x, 0, 0 }, record.data()).ok());
+    }
+  }
+  ASSERT_TRUE(chunks.close(0).ok());
+  ASSERT_TRUE(chunks.settle().ok());
+  std::vector<COPCNode> nodes = chunks.nodes();
+  std::sort(nodes.begin(), nodes.end(),
+    [](const COPCNode& a, const COPCNode& b) { return a.offset < b.offset; });
+  std::vector<std::array<unsigned, 3>> order; // level, x, points
+  std::uint64_t end = 0;
+  for (const COPCNode& node : nodes)
+  {
+    order.push_back({ static_cast<unsigned>(node.level), node.cell.x, node.points });
+    EXPECT_EQ(node.offset, end);
+    end += node.bytes;
+  }
+  const std::vector<std::array<unsigned, 3>> expected{ { 2, 0, 100 }, { 2, 1, 100 }, { 2, 2, 100 },
+    { 2, 3, 100 }, { 1, 0, 200 }, { 1, 1, 200 }, { 0, 0, 400 } };
+  EXPECT_EQ(order, expected);
+  EXPECT_EQ(chunks.end(), end);
 }
 
 TEST(COPCRecords, AreInTheSameOrderWhateverTheMemory)

@@ -8,6 +8,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,6 +49,8 @@ public:
   virtual std::vector<Result<RawBytes>> fetchAll(
     const std::vector<ForeignNode>& nodes, const ReadStop& stop) const;
   virtual std::size_t storedBytes(const ForeignNode& node) const = 0;
+  /// Where a node's bytes begin, if all nodes lie in one file.
+  virtual std::optional<std::uint64_t> place(const ForeignNode&) const { return std::nullopt; }
   /// The part of a node that is wanted.
   struct Part
   {

@@ -260,6 +260,12 @@ std::vector<Result<FetchedNode>> ForeignTree::fetchAll(
   return results;
 }
 
+std::optional<std::uint64_t> ForeignTree::place(NodeIndex node) const
+{
+  const std::optional<ForeignRow> found = table_->find(node);
+  return found ? reader_->place(found->cell) : std::nullopt;
+}
+
 Result<NodeColumns> ForeignTree::decode(const FetchedNode& fetched) const
 {
   if (fetched.node != first_)

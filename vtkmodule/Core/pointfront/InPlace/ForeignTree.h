@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -63,6 +64,7 @@ public:
   std::size_t decodedBytes(
     NodeIndex node, std::uint32_t points, const ColumnSelection& columns) const override;
   std::size_t storedBytes(NodeIndex node, const ColumnSelection& columns) const override;
+  std::optional<std::uint64_t> place(NodeIndex node) const override;
   std::uint64_t disk() const override { return reader_->disk(); }
   ReadCost readCost() const override { return reader_->readCost(); }
   MissingRows* missingRows() const override { return table_->missingRows(); }

@@ -11,7 +11,7 @@ seconds and the bytes of its input, of what is kept until the tiles are done, an
 
 Computed: all of these grow with the points, the collection with the tiles. Processors take
 POINTS * seconds / (CORES * EFFICIENCY): EFFICIENCY is what more workers cost than one, measured
-with two (tiles.py --package). The shared storage carries each byte of the inputs once, of kept
+with two (workers.py). The shared storage carries each byte of the inputs once, of kept
 points twice (written, read), of tiles once, RATE gigabytes a second. The build lasts as long as the
 slower of the two, and the making of the collection, which one process does. Small tiles have
 relatively large margins, so the sample's seconds are an upper bound.
@@ -59,7 +59,7 @@ def main():
     parser.add_argument("--points", type=float, default=1e11)
     parser.add_argument("--tile-points", type=float, default=1e7)
     parser.add_argument("--cores", type=int, default=320)
-    parser.add_argument("--efficiency", type=float, default=0.87)
+    parser.add_argument("--efficiency", type=float, default=0.88)
     parser.add_argument("--rate", type=float, default=2.0, help="GB/s of the shared storage")
     parser.add_argument("--core-hour", type=float, default=0.05, help="US dollars")
     parser.add_argument("--gigabyte-month", type=float, default=0.023, help="US dollars")

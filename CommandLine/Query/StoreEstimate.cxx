@@ -25,7 +25,7 @@ namespace
 using Range = std::array<double, 2>;
 
 /// Points that two cores store in a second, from the section "What it costs" of docs/tradeoffs.md.
-constexpr Range lasPointsASecond{ 6.4e6, 7.6e6 };
+constexpr Range lasPointsASecond{ 5.4e6, 7.6e6 };
 constexpr Range lazPointsASecond{ 1.8e6, 2.6e6 };
 /// Starting, and what does not depend on the number of points.
 constexpr double startSeconds = 0.1;

@@ -99,20 +99,20 @@ public:
     }
     for (const LayerStyling& layer : *layers)
     {
-      request_.styles.push_back(layer.styles.front());
-      request_.columns.layers.push_back(layer.columns());
+      drawn_.styles.push_back(layer.styles.front());
+      wanted_.columns.layers.push_back(layer.columns());
     }
     errorPx_ = technique.errorPx;
-    request_.complete = true;
+    wanted_.complete = true;
   }
 
   /// The grey picture of the next frame; `seconds` of drawing are added.
   std::vector<float> frame(const FrameCamera& camera, int number, double times, bool fixedSizes)
   {
-    request_.targetErrorPx = way_ == Way::AllPoints ? allPointsPx : times * errorPx_;
-    request_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
-    front_.update(request_);
-    PlanRequest request = request_;
+    wanted_.targetErrorPx = way_ == Way::AllPoints ? allPointsPx : times * errorPx_;
+    wanted_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
+    front_.update(wanted_);
+    PlanRequest request = drawn_;
     request.camera = camera;
     request.growth = way_ == Way::Growing ? &growth_ : nullptr;
     request.moment = { number / framesASecond, growthSeconds, true };
@@ -178,8 +178,8 @@ private:
   double errorPx_ = 1.0;
   ResidencyShare share_;
   ViewFront front_;
-  FrameRequest request_;
-  PlanRequest request_;
+  FrameRequest wanted_;
+  PlanRequest drawn_; // without what differs from frame to frame
   DetailGrowth growth_;
   SoftwareRasteriser rasteriser_;
 };

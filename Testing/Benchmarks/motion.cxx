@@ -106,19 +106,19 @@ public:
     }
     for (const LayerStyling& layer : *layers)
     {
-      request_.styles.push_back(layer.styles.front());
-      request_.columns.layers.push_back(layer.columns());
+      drawn_.styles.push_back(layer.styles.front());
+      wanted_.columns.layers.push_back(layer.columns());
     }
-    request_.complete = true;
+    wanted_.complete = true;
   }
 
   Shown frame(const FrameCamera& camera, bool moving)
   {
     const bool few = moving && way_ != Way::AllPoints;
-    request_.pointBudget = few ? points_ : 0;
-    request_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
-    front_.update(request_);
-    PlanRequest request = request_;
+    wanted_.pointBudget = few ? points_ : 0;
+    wanted_.view = View::fromMatrix(camera.storeToClip(), camera.width, camera.height);
+    front_.update(wanted_);
+    PlanRequest request = drawn_;
     request.camera = camera;
     request.keepsVisible = moving && way_ == Way::WithKept;
     const FramePlan plan = planFrame(front_, store_->description(), std::move(request));
@@ -142,8 +142,8 @@ private:
   std::uint64_t points_;
   ResidencyShare share_;
   ViewFront front_;
-  FrameRequest request_;
-  PlanRequest request_;
+  FrameRequest wanted_;
+  PlanRequest drawn_; // without what differs from frame to frame
   SoftwareRasteriser rasteriser_;
 };
 

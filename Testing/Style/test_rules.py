@@ -8,6 +8,7 @@ import shutil
 import sys
 import unittest
 
+import benchmarks_compile
 import contraction
 import doc_rules
 import quick_tests
@@ -244,6 +245,19 @@ class RulesTest(unittest.TestCase):
                     "e.cxx": "c++ -Ofast -ffp-contract=off -c e.cxx"}
         commands = [{"file": file, "command": command} for file, command in compiled.items()]
         self.assertEqual(contraction.contracting(commands), ["b.cxx", "c.cxx", "e.cxx"])
+
+    def test_benchmarks_compile(self):
+        folder = os.path.join(FOLDER, "benchmarks")
+        os.makedirs(folder, exist_ok=True)
+        sources = {"good.cxx": "int main() {}\n", "bad.cxx": "int main() { a(); }\n"}
+        for name, text in sources.items():
+            with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                file.write(text)
+        commands = [{"file": name, "directory": folder, "command":
+                     f"c++ -MD -MT {name}.o -MF {name}.d -o {name}.o -c {name}"}
+                    for name in ("good.cxx", "bad.cxx")]
+        self.assertEqual(benchmarks_compile.broken(commands), ["bad.cxx"])
+        self.assertEqual(sorted(os.listdir(folder)), ["bad.cxx", "good.cxx"])
 
     def include_faults(self, path, header):
         known = {

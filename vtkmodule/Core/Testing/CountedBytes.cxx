@@ -37,12 +37,9 @@ public:
     {
       ++counts_->reads;
       counts_->ranges += count;
-      counts_->requests += requestsFor(ranges, count);
     }
-    std::size_t size = 0;
     for (std::size_t i = 0; i < count; ++i)
     {
-      size += ranges[i].size;
       while (counts_->hangAt - ranges[i].offset < ranges[i].size && !stop)
       {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -57,26 +54,32 @@ public:
     while (atOnce > most && !counts_->readsAtOnceMost.compare_exchange_weak(most, atOnce))
     {
     }
-    counts_->transfer(size);
+    counts_->transfer(request(ranges, count));
     --under_;
     return file_->read(ranges, count);
   }
   void opened() { opening_ = false; }
 
 private:
-  std::size_t requestsFor(const ByteRange* ranges, std::size_t count) const
+  /// Counts the requests for these ranges; their bytes, with the gaps that they load.
+  std::size_t request(const ByteRange* ranges, std::size_t count) const
   {
     std::vector<ByteRange> sorted(ranges, ranges + count);
     std::sort(sorted.begin(), sorted.end(),
       [](const ByteRange& a, const ByteRange& b) { return a.offset < b.offset; });
-    std::size_t number = 0;
+    std::uint64_t number = 0;
+    std::uint64_t bytes = 0;
     std::uint64_t end = 0;
     for (const ByteRange& range : sorted)
     {
-      number += number == 0 || range.offset > end + counts_->mergeGapBytes ? 1 : 0;
-      end = std::max(end, range.offset + range.size);
+      const bool begins = number == 0 || range.offset > end + counts_->mergeGapBytes;
+      number += begins ? 1 : 0;
+      const std::uint64_t from = begins ? range.offset : end;
+      end = std::max(from, range.offset + range.size);
+      bytes += end - from;
     }
-    return number;
+    counts_->requests += opening_ ? 0 : number;
+    return static_cast<std::size_t>(bytes);
   }
 
   std::unique_ptr<const InputFile> file_;

@@ -20,7 +20,7 @@ namespace pointfront
 /// First bytes  come with the answer that opens a file and cost no round trip later; a file that is
 ///              open already is the same source for the next who opens it.
 /// Requests     ranges of one read that lie side by side are one, and so are ranges with a gap that
-///              takes less time than a request: `mergeGapBytes`.
+///              takes less time than a request: `mergeGapBytes`, which comes over the line, too.
 class CountedBytes final
   : public ByteOpener
   , public std::enable_shared_from_this<CountedBytes>

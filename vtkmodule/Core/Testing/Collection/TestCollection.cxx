@@ -1,4 +1,6 @@
 #include "CollectionTest.h"
+#include "GoldenFiles.h"
+#include "SampleStore.h"
 
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/NodeOfPoint.h"
@@ -271,6 +273,54 @@ TEST_F(Collections, GrowAndShrinkTileByTile)
   EXPECT_EQ(opened()->record().state, state + 1);
   EXPECT_TRUE(opened()->record().history.empty());
   EXPECT_TRUE(opened()->verify()->ok);
+}
+
+/// Stores of older versions of the format beside those of this one.
+TEST_F(Collections, TakeTilesOfAnyVersion)
+{
+  const SampleStore sample = makeSample(260);
+  std::vector<TileRequest> tiles;
+  for (int version = 1; version <= 4; ++version)
+  {
+    const std::string name = "version" + std::to_string(version) + "-all-codecs.pfront";
+    fs::copy_file(goldenFile(name), at(name));
+    tiles.push_back({ at(name) });
+  }
+  writeSample(sample, at("now.pfront"));
+  const TileRequest now{ at("now.pfront") };
+  created(tiles);
+  const std::uint64_t own = 6 * 260;
+  EXPECT_EQ(opened()->description().pointCount, 4 * own);
+  sound(addTiles(city(), { now }, {}));
+  const auto cloud = opened();
+  std::uint64_t identities = 0;
+  std::uint64_t found = 0;
+  const auto report = queryPoints(*cloud, PointQuery(), {},
+    [&](QueryBatch& batch) -> Result<void>
+    {
+      const std::size_t column = *cloud->description().schema.find("identity");
+      for (std::size_t i = 0; i < batch.size(); ++i, ++found)
+      {
+        std::uint64_t identity = 0;
+        std::memcpy(&identity, batch.points.columns[column].data() + 8 * i, 8);
+        identities += identity;
+      }
+      return {};
+    });
+  ASSERT_TRUE(report) << report.error().what;
+  std::uint64_t expectedIdentities = 0;
+  for (const NodeColumns& node : sample.points)
+  {
+    for (std::size_t i = 0; i < node.size(); ++i)
+    {
+      std::uint64_t identity = 0;
+      std::memcpy(&identity, node.columns[10].data() + 8 * i, 8);
+      expectedIdentities += 5 * identity;
+    }
+  }
+  EXPECT_EQ(found, 5 * own);
+  EXPECT_EQ(identities, expectedIdentities);
+  EXPECT_TRUE(cloud->verify()->ok) << cloud->verify()->firstError;
 }
 
 TEST_F(Collections, TakeTilesWithOtherAttributesAndGrids)

@@ -1,5 +1,6 @@
 #include "CountedBytes.h"
 #include "FilesInTheMaking.h"
+#include "ForgedStore.h"
 #include "SampleStore.h"
 #include "StoreBuildTest.h"
 
@@ -73,6 +74,41 @@ TEST(LatePayloads, LieBehindAllOthersWithTheRootLast)
   }
 }
 
+/// Who opens a store from afar gets nothing beside its tables that pictures do not want.
+TEST(LatePayloads, HaveTheirFirstPiecesBesideTheTables)
+{
+  const SampleStore sample = makeSample(5000);
+  const std::string path = temporaryPath("late.pfront");
+  const auto writer = StoreWriter::create(path, sample.description.schema);
+  ASSERT_TRUE(writer);
+  std::vector<StoreWriter::PayloadId> payloads;
+  for (const NodeColumns& points : sample.points)
+  {
+    payloads.push_back(
+      (*writer)->appendLate(encodeNode(points, sample.description.schema)).value());
+  }
+  ASSERT_TRUE((*writer)->commit(sample.description, sample.nodes, sample.roots, payloads));
+  const auto store = PointStore::open(path);
+  ASSERT_TRUE(store);
+  ColumnSelection first;
+  const ColumnPieces pieces = chooseColumnPieces(sample.description.schema);
+  for (std::uint32_t c = 0; c < pieces.size(); ++c)
+  {
+    if (pieces[c] == 0)
+    {
+      first.push_back(c);
+    }
+  }
+  ASSERT_GT(first.size(), 2u);
+  std::uint64_t begin = payloadEndOf(ForgedStore(path).footer);
+  const std::vector<std::uint64_t> places = placesIn(path);
+  for (NodeIndex n = 0; n < places.size(); ++n)
+  {
+    begin -= (*store)->storedBytes(n, first);
+    EXPECT_TRUE(sample.points[n].size() == 0 || places[n] == begin) << n;
+  }
+}
+
 /// A store in the making that refers to another one gets what that one holds back.
 TEST(LatePayloads, AreInAStoreThatRefersToTheWriter)
 {
@@ -99,10 +135,12 @@ TEST(LatePayloads, AreInAStoreThatRefersToTheWriter)
   ASSERT_TRUE(shown) << shown.error().what;
   for (NodeIndex n = 0; n < sample.nodes.size(); ++n)
   {
-    const auto points = (*shown)->read(n, {});
+    const auto points = (*shown)->read(n, everyColumn(sample.description.schema));
     ASSERT_TRUE(points) << points.error().what;
     EXPECT_EQ(points->positions, sample.points[n].positions);
+    EXPECT_EQ(points->columns, sample.points[n].columns);
   }
+  EXPECT_TRUE((*shown)->verify()->ok);
 }
 
 /// A limit on the size of files, which only the late payloads reach.

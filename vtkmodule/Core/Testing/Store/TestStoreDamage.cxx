@@ -118,14 +118,18 @@ TEST(StoreDamage, DamagedNodeIsNamedAndOthersStayReadable)
 {
   const std::string sound = soundStore(1000);
   const SampleStore sample = makeSample(1000);
-  const auto store = PointStore::open(sound);
-  ASSERT_TRUE(store);
   std::vector<std::byte> bytes = fileBytes(sound);
-  // Payloads follow in the order of the nodes: a byte of the positions of node 3.
+  // First pieces follow in the order of the nodes: a byte of the positions of node 3.
+  const ColumnPieces pieces = chooseColumnPieces(sample.description.schema);
   std::size_t at = storeHeaderBytes + 5;
   for (NodeIndex i = 0; i < 3; ++i)
   {
-    at += (*store)->storedBytes(i, everyColumn(sample.description.schema));
+    const EncodedNode node = encodeNode(sample.points[i], sample.description.schema);
+    at += node.positions.bytes.size();
+    for (std::size_t c = 0; c < pieces.size(); ++c)
+    {
+      at += pieces[c] == 0 ? node.columns[c].bytes.size() : 0;
+    }
   }
   bytes[at] ^= std::byte(16);
   const std::string path = temporaryPath("damaged.pfront");
@@ -165,12 +169,12 @@ TEST(StoreDamage, NewerVersionsAreNamed)
 {
   ForgedStore forged(soundStore());
   const std::string path = temporaryPath("newer.pfront");
-  forged.header.version = 4;
+  forged.header.version = 5;
   forged.write(path);
   const Error newer = openFails(path);
   EXPECT_EQ(newer.kind, Error::Kind::Unsupported);
   EXPECT_TRUE(
-    mentions(newer, "version 4") && mentions(newer, "up to version 3") && mentions(newer, "update"))
+    mentions(newer, "version 5") && mentions(newer, "up to version 4") && mentions(newer, "update"))
     << newer.what;
   EXPECT_TRUE(PointStore::looksLikeStore(path));
   forged.header.version = 2;
@@ -293,8 +297,43 @@ TEST(StoreDamage, HugeClaimsOfANodeAreRefusedWhenItIsRead)
     EXPECT_FALSE((*store)->verify()->ok);
   };
   refused("origin", 0, INT64_MAX);
-  refused("payload offset", 24, UINT64_MAX - 5);
-  refused("block size", 32, 0xffffffffu);
+  refused("first piece behind the file", 24, UINT64_MAX - 5);
+  refused("first piece in the header", 24, std::uint64_t(3));
+  refused("second piece behind the file", 32, UINT64_MAX - 5);
+  refused("second piece in another file, which is not there", 32, (std::uint64_t(1) << 63) + 64);
+  refused("second piece in the header", 32, std::uint64_t(3));
+  refused("block size", 40, 0xffffffffu);
+}
+
+TEST(StoreDamage, PiecesThatOverlapAreRefused)
+{
+  ForgedStore forged(soundStore());
+  std::vector<std::byte> directory = forged.section(SectionKind::BlockDirectory);
+  std::uint64_t first = 0;
+  std::memcpy(&first, directory.data() + recordOf(forged, 3) + 24, sizeof first);
+  poke(directory, recordOf(forged, 3) + 32, first + 1);
+  sign(directory, forged, 3);
+  forged.replaceSection(SectionKind::BlockDirectory, directory);
+  const std::string path = temporaryPath("overlap.pfront");
+  forged.write(path);
+  const auto store = PointStore::open(path);
+  ASSERT_TRUE(store) << store.error().what;
+  const auto points = (*store)->read(3, {});
+  ASSERT_FALSE(points);
+  EXPECT_EQ(points.error().kind, Error::Kind::Corrupt);
+  EXPECT_TRUE(mentions(points.error(), "node 3: the pieces of its payload overlap"))
+    << points.error().what;
+}
+
+TEST(StoreDamage, PiecesThatDoNotExistAreRefused)
+{
+  ForgedStore forged(soundStore());
+  forged.footer.pieces[4] = 2;
+  const std::string path = temporaryPath("piece.pfront");
+  forged.write(path);
+  const Error error = openFails(path);
+  EXPECT_EQ(error.kind, Error::Kind::Corrupt);
+  EXPECT_TRUE(mentions(error, "the footer names a piece that payloads do not have")) << error.what;
 }
 
 TEST(StoreDamage, HugeClaimsOfVersion1AreRefused)

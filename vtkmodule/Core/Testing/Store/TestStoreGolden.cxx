@@ -12,8 +12,8 @@ namespace
 {
 // Two stores of each version, kept for ever. A change of the format gets a new version and new
 // files; these stay, and stay readable. (POINTFRONT_WRITE_GOLDEN=FOLDER writes the newest there.)
-const std::string smallFile = "version3.pfront";
-const std::string largeFile = "version3-all-codecs.pfront";
+const std::string smallFile = "version4.pfront";
+const std::string largeFile = "version4-all-codecs.pfront";
 constexpr std::uint32_t smallPoints = 3;
 constexpr std::uint32_t largePoints = 260;
 
@@ -59,8 +59,10 @@ TEST(StoreGolden, EveryVersionStaysReadable)
   expectSample(goldenFile("version1-all-codecs.pfront"), makeSample(largePoints), 1);
   expectSample(goldenFile("version2.pfront"), makeSample(smallPoints), 2);
   expectSample(goldenFile("version2-all-codecs.pfront"), makeSample(largePoints), 2);
-  expectSample(goldenFile(smallFile), makeSample(smallPoints), 3);
-  expectSample(goldenFile(largeFile), makeSample(largePoints), 3);
+  expectSample(goldenFile("version3.pfront"), makeSample(smallPoints), 3);
+  expectSample(goldenFile("version3-all-codecs.pfront"), makeSample(largePoints), 3);
+  expectSample(goldenFile(smallFile), makeSample(smallPoints), 4);
+  expectSample(goldenFile(largeFile), makeSample(largePoints), 4);
 }
 
 TEST(StoreGolden, TheLargeOneHasEveryCodec)
@@ -85,7 +87,7 @@ TEST(StoreGolden, TheFormatHasNotChanged)
   const std::string path = temporaryPath("a.pfront");
   writeSample(makeSample(smallPoints), path);
   EXPECT_TRUE(fileBytes(path) == fileBytes(goldenFile(smallFile)))
-    << "what is written now differs from version 3: give the format a new version";
+    << "what is written now differs from version 4: give the format a new version";
   if (const char* folder = std::getenv("POINTFRONT_WRITE_GOLDEN"))
   {
     writeSample(makeSample(smallPoints), std::string(folder) + "/" + smallFile);

@@ -58,7 +58,7 @@ TEST(Store, DescribesWhatWasWritten)
   ASSERT_TRUE(opened) << opened.error().what;
   const StoreDescription& d = (*opened)->description();
   EXPECT_EQ(d.path, path);
-  EXPECT_EQ(d.version, 3u);
+  EXPECT_EQ(d.version, 4u);
   EXPECT_EQ(d.splatRadiusBase, 0.25);
   EXPECT_EQ(d.fileBytes, fileBytes(path).size());
   EXPECT_EQ(d.pointCount, 600u);

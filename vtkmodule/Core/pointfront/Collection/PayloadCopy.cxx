@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cstring>
+#include <numeric>
 #include <string>
 #include <utility>
 
@@ -59,26 +60,33 @@ Result<StoredPayload> PayloadCopy::of(NodeIndex node, std::uint32_t points)
   {
     return payload.error();
   }
-  assert(!payload->elsewhere);
-  const std::vector<BlockDirectory::Block>& blocks = payload->blocks;
-  const std::uint64_t begin = blocks.front().offset;
-  const std::uint64_t end = blocks.back().offset + blocks.back().bytes;
-  const Result<const std::byte*> bytes =
-    at(payloads_, begin, static_cast<std::size_t>(end - begin));
-  if (!bytes)
+  ColumnSelection all(payload->blocks.size() - 1);
+  std::iota(all.begin(), all.end(), 0);
+  const BlockRuns runs(*payload, all);
+  assert(runs.runs.size() <= payloads_.size());
+  std::vector<const std::byte*> found(payload->blocks.size());
+  for (std::size_t r = 0; r < runs.runs.size(); ++r)
   {
-    return bytes.error();
-  }
-  for (std::size_t b = 0; b < blocks.size(); ++b)
-  {
-    if (!matchesChecksum(*bytes + (blocks[b].offset - begin), blocks[b].bytes, blocks[b].checksum))
+    const BlockRuns::Run& run = runs.runs[r];
+    assert(!run.elsewhere);
+    const Result<const std::byte*> bytes = at(payloads_[r], run.offset, run.bytes);
+    if (!bytes)
     {
-      return corruptStore(content.file->path(), blocks[b].offset,
-        "node " + std::to_string(node) + ", block " + std::to_string(b) +
-          ": the checksum does not match");
+      return bytes.error();
+    }
+    for (std::size_t b = run.first; b < run.end; ++b)
+    {
+      const auto& [block, number] = runs.blocks[b];
+      found[number] = *bytes + (block.offset - run.offset);
+      if (!matchesChecksum(found[number], block.bytes, block.checksum))
+      {
+        return corruptStore(content.file->path(), block.offset,
+          "node " + std::to_string(node) + ", block " + std::to_string(number) +
+            ": the checksum does not match");
+      }
     }
   }
-  return StoredPayload{ std::move(*payload), *bytes };
+  return StoredPayload{ std::move(*payload), std::move(found) };
 }
 
 } // namespace pointfront

@@ -5,6 +5,7 @@
 #include "pointfront/Store/PayloadDirectory.h"
 #include "pointfront/Store/PointStore.h"
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -38,7 +39,7 @@ private:
 
   const PointStore& store_;
   Piece records_;
-  Piece payloads_;
+  std::array<Piece, payloadPieces> payloads_; ///< a place in the file for each run of a node
 };
 
 } // namespace pointfront

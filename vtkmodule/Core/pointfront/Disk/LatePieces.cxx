@@ -6,7 +6,7 @@
 namespace pointfront
 {
 
-Result<void> LatePieces::append(const std::vector<std::byte>& bytes)
+Result<void> LatePieces::append(const std::byte* data, std::size_t size)
 {
   assert(!places_.empty());
   if (!file_)
@@ -18,9 +18,9 @@ Result<void> LatePieces::append(const std::vector<std::byte>& bytes)
     }
     file_ = std::move(*file);
   }
-  Result<void> done = file_->write(end_, bytes.data(), bytes.size());
-  end_ += bytes.size();
-  places_.back().bytes += bytes.size();
+  Result<void> done = file_->write(end_, data, size);
+  end_ += size;
+  places_.back().bytes += size;
   return done;
 }
 
@@ -28,8 +28,16 @@ Result<std::vector<std::byte>> LatePieces::read(std::uint32_t number) const
 {
   const Place* place = find(number);
   assert(place);
-  std::vector<std::byte> bytes(place->bytes);
-  const Result<void> done = file_->read(place->offset, bytes.data(), bytes.size());
+  return read(number, 0, place->bytes);
+}
+
+Result<std::vector<std::byte>> LatePieces::read(
+  std::uint32_t number, std::uint64_t begin, std::size_t size) const
+{
+  const Place* place = find(number);
+  assert(place && begin <= place->bytes && size <= place->bytes - begin);
+  std::vector<std::byte> bytes(size);
+  const Result<void> done = file_->read(place->offset + begin, bytes.data(), size);
   return done ? Result<std::vector<std::byte>>(std::move(bytes)) : done.error();
 }
 

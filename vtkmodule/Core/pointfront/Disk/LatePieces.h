@@ -28,10 +28,17 @@ public:
   /// Begins a piece, whose number is larger than those of all earlier ones.
   void begin(std::uint32_t number) { places_.push_back({ number, 0, end_ }); }
   /// Appends to the piece that was begun last.
-  Result<void> append(const std::vector<std::byte>& bytes);
+  Result<void> append(const std::byte* data, std::size_t size);
+  Result<void> append(const std::vector<std::byte>& bytes)
+  {
+    return append(bytes.data(), bytes.size());
+  }
 
   bool contains(std::uint32_t number) const { return find(number) != nullptr; }
   Result<std::vector<std::byte>> read(std::uint32_t number) const;
+  /// A part of a piece: so many bytes from byte `begin` of it on.
+  Result<std::vector<std::byte>> read(
+    std::uint32_t number, std::uint64_t begin, std::size_t size) const;
 
 private:
   struct Place

@@ -18,7 +18,6 @@ struct Step
 {
   FetchedNode fetched;
   std::optional<Error> error;
-  bool elsewhere = false;
 };
 
 Result<FetchedNode> resultOf(Step step)
@@ -36,9 +35,13 @@ public:
     , stop_(stop)
   {
   }
+  /// Ranges of the same step come one after another.
   std::vector<ByteRange>& of(Step& step)
   {
-    steps_.push_back({ &step, ranges_.size() });
+    if (steps_.empty() || steps_.back().first != &step)
+    {
+      steps_.push_back({ &step, ranges_.size() });
+    }
     return ranges_;
   }
   /// An error is that of all, unless it tells of a place: then each node reads for itself.
@@ -130,10 +133,10 @@ std::vector<Result<FetchedNode>> PointStore::fetchAll(
       step.error = payload.error();
       continue;
     }
-    std::vector<ByteRange>& reads = (payload->elsewhere ? elsewhere : here).of(step);
     for (const BlockRuns::Run& run : BlockRuns(*payload, fetched.columns).runs)
     {
       fetched.runs.emplace_back(run.bytes);
+      std::vector<ByteRange>& reads = (run.elsewhere ? elsewhere : here).of(step);
       reads.push_back({ run.offset, run.bytes, fetched.runs.back().data.get() });
       fetched.bytesRead += run.bytes;
     }

@@ -4,9 +4,11 @@
 #include "pointfront/Codec/Checksum.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cstring>
 #include <string>
+#include <tuple>
 #include <utility>
 
 namespace pointfront
@@ -70,16 +72,18 @@ private:
   BlockDirectory directory_;
 };
 
-/// Version 2: a record is read when its node is.
+/// Since version 2: a record is read when its node is.
 class DirectoryInFile final : public PayloadDirectory
 {
 public:
-  DirectoryInFile(const ByteSource& file, std::uint64_t offset, std::uint32_t blocksPerNode,
-    std::uint64_t payloadEnd, std::uint64_t bytesElsewhere)
+  DirectoryInFile(const ByteSource& file, std::uint32_t version, const StoreFooter& footer,
+    std::uint64_t bytesElsewhere)
     : file_(file)
-    , offset_(offset)
-    , blocksPerNode_(blocksPerNode)
-    , payloadEnd_(payloadEnd)
+    , offset_(footer.find(SectionKind::BlockDirectory)->offset)
+    , recordBytes_(payloadRecordBytes(footer.columnCount + 1, version))
+    , inPieces_(version >= 4)
+    , pieces_(inPieces_ ? footer.pieces : ColumnPieces(footer.columnCount, 0))
+    , payloadEnd_(payloadEndOf(footer))
     , bytesElsewhere_(bytesElsewhere)
   {
   }
@@ -87,13 +91,13 @@ public:
   RawBytes prepare(
     std::uint32_t node, std::uint32_t pointCount, std::vector<ByteRange>& reads) const override
   {
-    RawBytes bytes = begun(pointCount, payloadRecordBytes(blocksPerNode_));
+    RawBytes bytes = begun(pointCount, recordBytes_);
     reads.push_back({ offsetOf(node), bytes.size - countBytes, bytes.data.get() + countBytes });
     return bytes;
   }
   bool holds(std::uint32_t node) const override
   {
-    return file_.holds(offsetOf(node), payloadRecordBytes(blocksPerNode_));
+    return file_.holds(offsetOf(node), recordBytes_);
   }
 
   Result<NodePayload> decode(std::uint32_t node, const RawBytes& fetched) const override
@@ -122,7 +126,39 @@ public:
 private:
   std::uint64_t offsetOf(std::uint32_t node) const
   {
-    return offset_ + std::uint64_t(node) * payloadRecordBytes(blocksPerNode_);
+    return offset_ + std::uint64_t(node) * recordBytes_;
+  }
+
+  /// Where the next block of a piece lies.
+  struct Place
+  {
+    std::uint64_t begin = 0;
+    std::uint64_t offset = 0;
+    std::uint64_t end = 0; ///< payload in its file ends there at the latest
+    bool elsewhere = false;
+  };
+  using Places = std::array<Place, payloadPieces>;
+
+  Places getPlaces(ByteReader& in) const
+  {
+    Places places;
+    for (std::size_t piece = 0; piece < (inPieces_ ? payloadPieces : 1); ++piece)
+    {
+      const auto begin = in.get<std::uint64_t>();
+      Place& place = places[piece];
+      place.elsewhere = (begin & BlockDirectory::elsewhereBit) != 0;
+      place.begin = place.offset = begin & ~BlockDirectory::elsewhereBit;
+      place.end = place.elsewhere ? bytesElsewhere_ : payloadEnd_;
+    }
+    return places;
+  }
+
+  /// An empty piece inside the other counts, too.
+  static bool overlap(const Places& places)
+  {
+    const auto& [first, second] = places;
+    return first.elsewhere == second.elsewhere && first.begin < second.offset &&
+      second.begin < first.offset;
   }
 
   template <typename Damaged>
@@ -133,18 +169,17 @@ private:
     {
       payload.origin[axis] = in.get<std::int64_t>();
     }
-    auto offset = in.get<std::uint64_t>();
-    payload.elsewhere = (offset & BlockDirectory::elsewhereBit) != 0;
-    offset &= ~BlockDirectory::elsewhereBit;
-    const std::uint64_t payloadEnd = payload.elsewhere ? bytesElsewhere_ : payloadEnd_;
     if (!inRange(payload.origin))
     {
       return damaged("its origin is out of range");
     }
-    for (std::uint32_t b = 0; b < blocksPerNode_; ++b)
+    Places places = getPlaces(in);
+    for (std::size_t b = 0; b <= pieces_.size(); ++b)
     {
+      Place& place = places[b == 0 ? 0 : pieces_[b - 1]];
       BlockDirectory::Block block;
-      block.offset = offset;
+      block.offset = place.offset;
+      block.elsewhere = place.elsewhere;
       block.bytes = in.get<std::uint32_t>();
       block.checksum = in.get<std::uint32_t>();
       const auto codec = in.get<std::uint8_t>();
@@ -152,20 +187,24 @@ private:
       {
         return unknownCodecIn(file_.path(), "codec " + std::to_string(codec));
       }
-      if (offset < storeHeaderBytes || offset > payloadEnd || block.bytes > payloadEnd - offset)
+      if (place.offset < storeHeaderBytes || place.offset > place.end ||
+        block.bytes > place.end - place.offset)
       {
         return damaged("its payload lies outside the file");
       }
       block.codec = static_cast<BlockCodec>(codec);
       payload.blocks.push_back(block);
-      offset += block.bytes;
+      place.offset += block.bytes;
     }
-    return payload;
+    return overlap(places) ? damaged("the pieces of its payload overlap")
+                           : Result<NodePayload>(std::move(payload));
   }
 
   const ByteSource& file_;
   std::uint64_t offset_;
-  std::uint32_t blocksPerNode_;
+  std::size_t recordBytes_;
+  bool inPieces_;
+  ColumnPieces pieces_;
   std::uint64_t payloadEnd_;
   std::uint64_t bytesElsewhere_;
 };
@@ -202,23 +241,31 @@ Result<std::unique_ptr<const PayloadDirectory>> openInMemory(
 } // namespace
 
 BlockRuns::BlockRuns(const NodePayload& payload, const ColumnSelection& columns)
-  : blocks{ payload.blocks[0] }
+  : blocks{ { payload.blocks[0], 0 } }
 {
   for (const std::uint32_t column : columns)
   {
     assert(column + 1 < payload.blocks.size());
-    blocks.push_back(payload.blocks[column + 1]);
+    blocks.push_back({ payload.blocks[column + 1], blocks.size() });
   }
+  std::stable_sort(blocks.begin(), blocks.end(),
+    [](const Wanted& a, const Wanted& b)
+    {
+      return std::tie(a.block.elsewhere, a.block.offset) <
+        std::tie(b.block.elsewhere, b.block.offset);
+    });
   for (std::size_t b = 0; b < blocks.size(); ++b)
   {
+    const BlockDirectory::Block& block = blocks[b].block;
     const std::uint64_t end = runs.empty() ? 0 : runs.back().offset + runs.back().bytes;
-    if (runs.empty() || blocks[b].offset - end > mergeGapBytes)
+    if (runs.empty() || runs.back().elsewhere != block.elsewhere ||
+      block.offset - end > mergeGapBytes)
     {
-      runs.push_back({ b, b, blocks[b].offset, 0 });
+      runs.push_back({ b, b, block.offset, 0, block.elsewhere });
     }
     Run& run = runs.back();
     run.end = b + 1;
-    run.bytes = static_cast<std::size_t>(blocks[b].offset + blocks[b].bytes - run.offset);
+    run.bytes = static_cast<std::size_t>(block.offset + block.bytes - run.offset);
   }
 }
 
@@ -238,7 +285,7 @@ Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const Byt
   const std::uint32_t blocks = footer.columnCount + 1;
   const std::uint64_t expected = version == 1
     ? BlockDirectory::encodedBytes(footer.nodeCount, blocks)
-    : std::uint64_t(footer.nodeCount) * payloadRecordBytes(blocks);
+    : std::uint64_t(footer.nodeCount) * payloadRecordBytes(blocks, version);
   if (section.bytes != expected)
   {
     return corruptStore(file.path(), section.offset, "the block directory's size is wrong");
@@ -247,8 +294,8 @@ Result<std::unique_ptr<const PayloadDirectory>> PayloadDirectory::open(const Byt
   {
     return openInMemory(file, section, footer);
   }
-  return std::unique_ptr<const PayloadDirectory>(std::make_unique<DirectoryInFile>(
-    file, section.offset, blocks, payloadEndOf(footer), bytesElsewhere));
+  return std::unique_ptr<const PayloadDirectory>(
+    std::make_unique<DirectoryInFile>(file, version, footer, bytesElsewhere));
 }
 
 std::vector<std::byte> encodePayloadRecords(

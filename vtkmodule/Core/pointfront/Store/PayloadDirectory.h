@@ -2,7 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Disk/ByteSource.h"
-#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Payload/BlockDirectory.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoreFormat.h"
 
@@ -14,12 +14,11 @@
 namespace pointfront
 {
 
-/// Where one node's blocks lie: block 0 the positions, block 1 + c column c, one after another.
+/// Where one node's blocks lie: block 0 the positions, block 1 + c column c.
 struct NodePayload
 {
   std::uint32_t pointCount = 0; ///< as its row in the node table says
   GridPosition origin{ 0 };
-  bool elsewhere = false; ///< they lie in the store's second file (PayloadElsewhere.h)
   std::vector<BlockDirectory::Block> blocks;
 };
 
@@ -27,23 +26,29 @@ struct NodePayload
 struct StoredPayload
 {
   NodePayload is;
-  const std::byte* bytes = nullptr; ///< all its blocks, one after another
+  std::vector<const std::byte*> blocks; ///< bytes of each
 };
 
-/// The blocks of one node that are wanted, the positions first, and the runs of neighbours among
-/// them: a run is read as a whole.
+/// The blocks of one node that are wanted, in the order of the file, and the runs of neighbours
+/// among them: a run is read as a whole.
 struct BlockRuns
 {
+  struct Wanted
+  {
+    BlockDirectory::Block block;
+    std::size_t number = 0; ///< 0 the positions, 1 + k the k-th of the wanted columns
+  };
   struct Run
   {
     std::size_t first = 0; ///< index of its first block
     std::size_t end = 0; ///< past the last
     std::uint64_t offset = 0; ///< in the file
     std::size_t bytes = 0;
+    bool elsewhere = false; ///< in the store's second file
   };
   BlockRuns(const NodePayload& payload, const ColumnSelection& columns);
 
-  std::vector<BlockDirectory::Block> blocks;
+  std::vector<Wanted> blocks;
   std::vector<Run> runs;
 };
 
@@ -71,13 +76,15 @@ public:
     std::uint32_t version, const StoreFooter& footer, std::uint64_t bytesElsewhere = 0);
 };
 
-/// Bytes of a node's record from version 2 on: origin, offset, blocks, checksum.
-constexpr std::size_t payloadRecordBytes(std::uint32_t blocksPerNode)
+/// Bytes of a node's record from version 2 on: origin, offsets of its pieces (one before version
+/// 4), blocks, checksum.
+constexpr std::size_t payloadRecordBytes(
+  std::uint32_t blocksPerNode, std::uint32_t version = storeVersion)
 {
-  return BlockDirectory::recordBytes(blocksPerNode) + 4;
+  return BlockDirectory::recordBytes(blocksPerNode, version >= 4) + 4;
 }
 
-/// The section of version 2: a record for each of those nodes of a directory.
+/// The section since version 4: a record for each of those nodes of a directory.
 std::vector<std::byte> encodePayloadRecords(
   const BlockDirectory& directory, const std::vector<std::uint32_t>& nodes);
 

@@ -34,8 +34,8 @@ PayloadElsewhere describeElsewhere(PayloadElsewhere elsewhere, const BlockDirect
   elsewhere.mark.checksum = checksumOf(nullptr, 0);
   for (std::uint32_t node = 0; node < directory.nodeCount(); ++node)
   {
-    if (directory.isElsewhere(node) && directory.payloadBytes(node) > 0 &&
-      directory.offset(node) > elsewhere.mark.offset)
+    if (directory.isElsewhere(node, 0) && directory.pieceBytes(node, 0) > 0 &&
+      directory.offset(node, 0) > elsewhere.mark.offset)
     {
       elsewhere.mark = directory.block(node, 0);
     }

@@ -2,7 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Disk/ByteSource.h"
-#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Payload/BlockDirectory.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -400,7 +400,6 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
   }
   const std::size_t points = payload->pointCount;
   const BlockRuns wanted(*payload, columns);
-  const auto& blocks = wanted.blocks;
   NodeColumns result = emptyColumns(node, points, columns, description.schema);
   result.origin = payload->origin;
   result.describe(fetched.row);
@@ -409,20 +408,20 @@ Result<NodeColumns> PointStore::decode(const FetchedNode& fetched) const
   {
     for (std::size_t b = run->first; b < run->end; ++b)
     {
+      const auto& [block, number] = wanted.blocks[b];
       BlockShape shape = positionShape(points);
       auto* values = reinterpret_cast<std::byte*>(result.positions.data());
-      if (b > 0)
+      if (number > 0)
       {
-        shape = columnShape(description.schema[columns[b - 1]], points);
-        values = result.columns[b - 1].data();
+        shape = columnShape(description.schema[columns[number - 1]], points);
+        values = result.columns[number - 1].data();
       }
-      const std::byte* data = bytes->data.get() + (blocks[b].offset - run->offset);
-      const std::string fault = decodeFault(blocks[b], data, shape, values);
+      const std::byte* data = bytes->data.get() + (block.offset - run->offset);
+      const std::string fault = decodeFault(block, data, shape, values);
       if (!fault.empty())
       {
-        const std::uint32_t block = b == 0 ? 0 : columns[b - 1] + 1;
-        return corruptStore(content_->fileOf(*payload).path(), blocks[b].offset,
-          blockName(description, node, block) + fault);
+        return corruptStore(content_->fileOf(block).path(), block.offset,
+          blockName(description, node, number == 0 ? 0 : columns[number - 1] + 1) + fault);
       }
     }
   }

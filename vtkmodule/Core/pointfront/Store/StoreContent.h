@@ -28,9 +28,9 @@ struct PointStore::Content
   std::optional<PayloadElsewhere> elsewhere;
   std::shared_ptr<const ByteSource> fileElsewhere; ///< with `elsewhere`, unless only looked at
 
-  const ByteSource& fileOf(const NodePayload& payload) const
+  const ByteSource& fileOf(const BlockDirectory::Block& block) const
   {
-    return payload.elsewhere ? *fileElsewhere : *file;
+    return block.elsewhere ? *fileElsewhere : *file;
   }
 };
 

@@ -15,6 +15,7 @@ namespace
 constexpr std::size_t footerFixedBytes = 24;
 constexpr std::size_t sectionEntryBytes = 24;
 constexpr std::uint32_t maxSections = 64;
+constexpr std::uint32_t firstVersionWithPieces = 4;
 
 bool beginsLikeStore(const std::byte* data, std::size_t size)
 {
@@ -85,10 +86,11 @@ Result<void> checkHeader(
     return corruptStore(path, header.fileBytes,
       std::to_string(fileBytes - header.fileBytes) + " bytes follow the store's end");
   }
+  const std::size_t mostPieces = header.version < firstVersionWithPieces ? 0 : maxColumns;
   if (header.footerOffset < storeHeaderBytes || header.footerOffset > header.fileBytes ||
     header.fileBytes - header.footerOffset != header.footerBytes ||
     header.footerBytes < footerFixedBytes + 4 ||
-    header.footerBytes > footerFixedBytes + maxSections * sectionEntryBytes + 4)
+    header.footerBytes > footerFixedBytes + maxSections * sectionEntryBytes + mostPieces + 4)
   {
     return corruptStore(path, 24, "the footer does not lie at the end of the file");
   }
@@ -145,6 +147,7 @@ std::vector<std::byte> encodeFooter(const StoreFooter& footer)
     out.put(section.offset);
     out.put(section.bytes);
   }
+  out.putBytes(footer.pieces.data(), footer.pieces.size());
   out.put(checksumOf(out.bytes().data(), out.size()));
   return out.bytes();
 }
@@ -197,7 +200,8 @@ Result<StoreFooter> decodeFooter(
   footer.columnCount = in.get<std::uint32_t>();
   const auto sections = in.get<std::uint32_t>();
   in.get<std::uint32_t>(); // reserved
-  if (sections * std::uint64_t(sectionEntryBytes) != in.remaining())
+  const std::uint64_t pieces = header.version < firstVersionWithPieces ? 0 : footer.columnCount;
+  if (sections * std::uint64_t(sectionEntryBytes) + pieces != in.remaining())
   {
     return corruptStore(path, header.footerOffset, "the footer's size is wrong");
   }
@@ -210,6 +214,8 @@ Result<StoreFooter> decodeFooter(
     entry.bytes = in.get<std::uint64_t>();
     footer.sections.push_back(entry);
   }
+  footer.pieces.resize(static_cast<std::size_t>(pieces));
+  in.getBytes(footer.pieces.data(), footer.pieces.size());
   const std::string fault = sectionFault(footer, header);
   if (!fault.empty())
   {
@@ -218,6 +224,12 @@ Result<StoreFooter> decodeFooter(
   if (footer.columnCount > maxColumns)
   {
     return corruptStore(path, header.footerOffset, "the footer's column count is too large");
+  }
+  if (std::any_of(footer.pieces.begin(), footer.pieces.end(),
+        [](std::uint8_t piece) { return piece >= payloadPieces; }))
+  {
+    return corruptStore(
+      path, header.footerOffset, "the footer names a piece that payloads do not have");
   }
   return footer;
 }

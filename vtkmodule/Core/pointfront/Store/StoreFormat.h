@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
+#include "pointfront/Payload/ColumnPieces.h"
 #include "pointfront/Points/PointSource.h"
 
 #include <array>
@@ -16,7 +17,7 @@ namespace pointfront
 // The frame of a store file: header, payload, sections, footer. docs/formats/pfront.md has every
 // byte; what stands here must agree with it.
 
-constexpr std::uint32_t storeVersion = 3; ///< written by this program, and the newest it reads
+constexpr std::uint32_t storeVersion = 4; ///< written by this program, and the newest it reads
 constexpr std::size_t storeHeaderBytes = 64;
 constexpr std::array<unsigned char, 8> storeMagic{ 0x89, 'P', 'F', 'R', 'O', 'N', 'T', 0x0a };
 
@@ -70,6 +71,7 @@ struct StoreFooter
   std::uint32_t nodeCount = 0;
   std::uint32_t columnCount = 0;
   std::vector<SectionEntry> sections;
+  ColumnPieces pieces; ///< since version 4, one for each column; empty before: all in the first
 
   const SectionEntry* find(SectionKind kind) const;
 };

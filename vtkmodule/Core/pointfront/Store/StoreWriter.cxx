@@ -2,7 +2,7 @@
 
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Disk/TemporaryFile.h"
-#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Payload/BufferedOutput.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/NodePage.h"
@@ -23,9 +23,6 @@ namespace pointfront
 {
 namespace
 {
-/// One write a few nodes: fewer calls, and the disk gets long runs.
-constexpr std::size_t writeBufferBytes = std::size_t(4) << 20;
-
 Error wrongTable(const std::string& path, const std::string& why)
 {
   return makeError(
@@ -43,6 +40,30 @@ std::uint64_t originalPointsOf(const std::vector<Node>& nodes, Refinement refine
   return sum;
 }
 
+std::vector<BlockToWrite> blocksOf(const EncodedNode& node)
+{
+  std::vector<BlockToWrite> blocks;
+  const auto add = [&blocks](const EncodedNode::Block& block)
+  {
+    blocks.push_back({ block.bytes.data(), static_cast<std::uint32_t>(block.bytes.size()),
+      block.checksum, static_cast<BlockCodec>(block.codec) });
+  };
+  add(node.positions);
+  std::for_each(node.columns.begin(), node.columns.end(), add);
+  return blocks;
+}
+
+std::vector<BlockToWrite> blocksOf(const StoredPayload& payload)
+{
+  std::vector<BlockToWrite> blocks;
+  for (std::size_t b = 0; b < payload.is.blocks.size(); ++b)
+  {
+    const BlockDirectory::Block& block = payload.is.blocks[b];
+    blocks.push_back({ payload.blocks[b], block.bytes, block.checksum, block.codec });
+  }
+  return blocks;
+}
+
 class FileStoreWriter final : public StoreWriter
 {
 public:
@@ -50,11 +71,11 @@ public:
     std::optional<WrittenPayloads> elsewhere)
     : file_(std::move(file))
     , schema_(schema)
-    , payloads_(static_cast<std::uint32_t>(1 + schema.size()))
+    , payloads_(elsewhere
+          ? std::move(elsewhere->places)
+          : PayloadPlaces(chooseColumnPieces(schema), folderOf(file_.file().path())))
     , nodeRanges_(schema)
-    , late_(elsewhere ? std::move(elsewhere->late) : LatePieces(folderOf(file_->path())))
   {
-    buffer_.reserve(writeBufferBytes);
     if (elsewhere)
     {
       refer(std::move(*elsewhere));
@@ -67,7 +88,7 @@ public:
   }
 
   /// The header's place; its bytes come last, so an unfinished file never looks like a store.
-  Result<void> begin() { return put(std::vector<std::byte>(storeHeaderBytes)); }
+  Result<void> begin() { return file_.put(std::vector<std::byte>(storeHeaderBytes)); }
 
   Result<PayloadId> append(const EncodedNode& node) override;
   Result<PayloadId> appendLate(const EncodedNode& node) override;
@@ -75,19 +96,14 @@ public:
     const std::vector<ColumnRange>& ranges) override;
   Result<void> commit(StoreDescription description, const std::vector<Node>& nodes,
     const std::vector<NodeIndex>& roots, const std::vector<PayloadId>& payloads) override;
-  std::uint64_t bytesWritten() const override { return end_; }
+  std::uint64_t bytesWritten() const override { return file_.end(); }
   Result<WrittenPayloads> written() override;
 
 private:
   void refer(WrittenPayloads elsewhere);
-  Result<void> put(const std::vector<std::byte>& bytes) { return put(bytes.data(), bytes.size()); }
-  Result<void> put(const std::byte* bytes, std::size_t size);
-  Result<void> flush();
   void takeFacts(
     std::uint32_t points, const GridBounds& bounds, const std::vector<ColumnRange>& ranges);
-  template <typename Put>
-  Result<PayloadId> take(const EncodedNode& node, const Put& putBlock);
-  Result<void> putLate(const std::vector<PayloadId>& payloads);
+  Result<PayloadId> take(const EncodedNode& node, bool late);
   Result<void> putWhole(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> putParts(SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer);
   Result<void> finish(const StoreFooter& footer);
@@ -100,16 +116,13 @@ private:
   Result<void> putPayloadFacts(
     const std::vector<Node>& nodes, const std::vector<PayloadId>& payloads, StoreFooter& footer);
 
-  std::unique_ptr<OutputFile> file_;
+  BufferedOutput file_;
   AttributeSchema schema_;
-  BlockDirectory payloads_; // by PayloadId
+  PayloadPlaces payloads_; // by PayloadId
   std::vector<std::uint32_t> pointCounts_; // likewise
   NodeRangesWriter nodeRanges_; // likewise; not of payloads that are elsewhere
-  LatePieces late_; // by PayloadId
   GridBounds bounds_;
   std::vector<ColumnRange> ranges_;
-  std::vector<std::byte> buffer_;
-  std::uint64_t end_ = 0;
   std::string nameElsewhere_; // empty: all payloads are in this file
   std::string nameMeanwhile_;
   std::uint64_t bytesElsewhere_ = 0;
@@ -119,7 +132,7 @@ private:
 void FileStoreWriter::refer(WrittenPayloads elsewhere)
 {
   assert(elsewhere.ranges.size() == schema_.size());
-  payloads_.addElsewhere(elsewhere.directory);
+  payloads_.goElsewhere();
   pointCounts_ = std::move(elsewhere.pointCounts);
   bounds_ = elsewhere.bounds;
   ranges_ = std::move(elsewhere.ranges);
@@ -130,103 +143,46 @@ void FileStoreWriter::refer(WrittenPayloads elsewhere)
 
 Result<WrittenPayloads> FileStoreWriter::written()
 {
-  Result<void> done = flush();
-  done = done ? file_->settle() : done;
+  Result<void> done = file_.flush();
+  done = done ? file_.file().settle() : done;
   if (!done)
   {
     return done.error();
   }
   WrittenPayloads result;
-  result.storeName = std::filesystem::path(file_->path()).filename().string();
-  result.nameMeanwhile = std::filesystem::path(file_->pathMeanwhile()).filename().string();
-  result.bytes = end_;
-  result.directory = payloads_;
+  result.storeName = std::filesystem::path(file_.file().path()).filename().string();
+  result.nameMeanwhile = std::filesystem::path(file_.file().pathMeanwhile()).filename().string();
+  result.bytes = file_.end();
+  result.places = payloads_;
   result.pointCounts = pointCounts_;
   result.bounds = bounds_;
   result.ranges = ranges_;
-  result.late = late_;
   return result;
 }
 
-Result<void> FileStoreWriter::put(const std::byte* bytes, std::size_t size)
-{
-  if (buffer_.size() + size > writeBufferBytes)
-  {
-    if (Result<void> done = flush(); !done)
-    {
-      return done;
-    }
-  }
-  end_ += size;
-  if (size > writeBufferBytes)
-  {
-    return file_->append(bytes, size);
-  }
-  buffer_.insert(buffer_.end(), bytes, bytes + size);
-  return {};
-}
-
-Result<void> FileStoreWriter::flush()
-{
-  Result<void> done = file_->append(buffer_.data(), buffer_.size());
-  buffer_.clear();
-  return done;
-}
-
-/// Adds what the tables say of a node whose payload begins at the end of the file, until somebody
-/// says otherwise, and hands its blocks over.
-template <typename Put>
-Result<StoreWriter::PayloadId> FileStoreWriter::take(const EncodedNode& node, const Put& putBlock)
+Result<StoreWriter::PayloadId> FileStoreWriter::take(const EncodedNode& node, bool late)
 {
   assert(node.columns.size() == schema_.size());
   if (node.pointCount > maxNodePoints)
   {
     return makeError(Error::Kind::BadArgument,
       "a node of " + std::to_string(node.pointCount) + " points is too large for '" +
-        file_->path() + "'; use smaller nodes");
+        file_.file().path() + "'; use smaller nodes");
   }
-  payloads_.addNode(node.origin, end_);
-  Result<void> done;
-  const auto takeBlock = [&](const EncodedNode::Block& block)
-  {
-    payloads_.addBlock(static_cast<std::uint32_t>(block.bytes.size()), block.checksum,
-      static_cast<BlockCodec>(block.codec));
-    done = done ? putBlock(block.bytes) : done;
-  };
-  takeBlock(node.positions);
-  std::for_each(node.columns.begin(), node.columns.end(), takeBlock);
+  const Result<void> done = late ? payloads_.appendLate(node.origin, blocksOf(node))
+                                 : payloads_.append(file_, node.origin, blocksOf(node));
   takeFacts(node.pointCount, node.bounds, node.ranges);
   return done ? Result<PayloadId>(static_cast<PayloadId>(pointCounts_.size() - 1)) : done.error();
 }
 
 Result<StoreWriter::PayloadId> FileStoreWriter::append(const EncodedNode& node)
 {
-  return take(node, [this](const std::vector<std::byte>& bytes) { return put(bytes); });
+  return take(node, false);
 }
 
 Result<StoreWriter::PayloadId> FileStoreWriter::appendLate(const EncodedNode& node)
 {
-  late_.begin(static_cast<PayloadId>(pointCounts_.size()));
-  return take(node, [this](const std::vector<std::byte>& bytes) { return late_.append(bytes); });
-}
-
-/// Writes the late payloads, those of the last nodes of the table first.
-Result<void> FileStoreWriter::putLate(const std::vector<PayloadId>& payloads)
-{
-  for (auto id = payloads.rbegin(); id != payloads.rend(); ++id)
-  {
-    if (!late_.contains(*id))
-    {
-      continue;
-    }
-    const auto bytes = late_.read(*id);
-    payloads_.setOffset(*id, end_);
-    if (Result<void> done = bytes ? put(*bytes) : Result<void>(bytes.error()); !done)
-    {
-      return done;
-    }
-  }
-  return {};
+  return take(node, true);
 }
 
 Result<StoreWriter::PayloadId> FileStoreWriter::append(
@@ -234,14 +190,7 @@ Result<StoreWriter::PayloadId> FileStoreWriter::append(
 {
   assert(payload.is.blocks.size() == schema_.size() + 1);
   const auto id = static_cast<PayloadId>(pointCounts_.size());
-  payloads_.addNode(payload.is.origin, end_);
-  std::size_t size = 0;
-  for (const BlockDirectory::Block& block : payload.is.blocks)
-  {
-    payloads_.addBlock(block.bytes, block.checksum, block.codec);
-    size += block.bytes;
-  }
-  if (Result<void> done = put(payload.bytes, size); !done)
+  if (Result<void> done = payloads_.append(file_, payload.is.origin, blocksOf(payload)); !done)
   {
     return done.error();
   }
@@ -328,8 +277,8 @@ Result<void> FileStoreWriter::putPayloadFacts(
   {
     return putParts(SectionKind::NodeRanges, nodeRanges_.encode(nodes, payloads), footer);
   }
-  const PayloadElsewhere elsewhere =
-    describeElsewhere({ nameElsewhere_, nameMeanwhile_, bytesElsewhere_, {} }, payloads_);
+  const PayloadElsewhere elsewhere = describeElsewhere(
+    { nameElsewhere_, nameMeanwhile_, bytesElsewhere_, {} }, payloads_.directory());
   return putWhole(SectionKind::Elsewhere, encodeElsewhere(elsewhere), footer);
 }
 
@@ -338,16 +287,18 @@ Result<void> FileStoreWriter::commit(StoreDescription description, const std::ve
 {
   assert(description.schema == schema_);
   std::string fault = nodesFault(description, nodes, roots, payloads);
-  if (Result<void> done = fault.empty() ? putLate(payloads) : Result<void>(); !done)
+  if (Result<void> done = fault.empty() ? payloads_.finish(file_, payloads) : Result<void>(); !done)
   {
     return done;
   }
   bool unknownCodec = false;
-  fault = fault.empty() ? payloads_.fault({ storeHeaderBytes, end_, bytesElsewhere_ }, unknownCodec)
-                        : fault;
+  const BlockDirectory& directory = payloads_.directory();
+  fault = fault.empty()
+    ? directory.fault({ storeHeaderBytes, file_.end(), bytesElsewhere_ }, unknownCodec)
+    : fault;
   if (!fault.empty())
   {
-    return wrongTable(file_->path(), fault);
+    return wrongTable(file_.file().path(), fault);
   }
   const StoredDescription stored = describe(std::move(description), nodes, roots);
   features_ = collectionRecordIn(stored.description.metadata) != nullptr ? headsOfCollection : 0;
@@ -355,10 +306,11 @@ Result<void> FileStoreWriter::commit(StoreDescription description, const std::ve
   footer.pointCount = originalPointsOf(nodes, stored.description.refinement);
   footer.nodeCount = static_cast<std::uint32_t>(nodes.size());
   footer.columnCount = static_cast<std::uint32_t>(schema_.size());
+  footer.pieces = directory.pieces();
   Result<void> done = putParts(SectionKind::NodeTable, encodeNodePages(nodes), footer);
   if (done)
   {
-    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(payloads_, payloads), footer);
+    done = putParts(SectionKind::BlockDirectory, encodePayloadRecords(directory, payloads), footer);
   }
   if (done)
   {
@@ -375,37 +327,38 @@ Result<void> FileStoreWriter::commit(StoreDescription description, const std::ve
 Result<void> FileStoreWriter::putWhole(
   SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer)
 {
-  footer.sections.push_back({ kind, checksumOf(bytes.data(), bytes.size()), end_, bytes.size() });
-  return put(bytes);
+  footer.sections.push_back(
+    { kind, checksumOf(bytes.data(), bytes.size()), file_.end(), bytes.size() });
+  return file_.put(bytes);
 }
 
 /// A section whose parts have checksums of their own.
 Result<void> FileStoreWriter::putParts(
   SectionKind kind, const std::vector<std::byte>& bytes, StoreFooter& footer)
 {
-  footer.sections.push_back({ kind, 0, end_, bytes.size() });
-  return put(bytes);
+  footer.sections.push_back({ kind, 0, file_.end(), bytes.size() });
+  return file_.put(bytes);
 }
 
 Result<void> FileStoreWriter::finish(const StoreFooter& footer)
 {
   const std::vector<std::byte> footerBytes = encodeFooter(footer);
   StoreHeader header;
-  header.footerOffset = end_;
+  header.footerOffset = file_.end();
   header.footerBytes = static_cast<std::uint32_t>(footerBytes.size());
-  header.fileBytes = end_ + footerBytes.size();
+  header.fileBytes = file_.end() + footerBytes.size();
   header.requiredFeatures = (nameElsewhere_.empty() ? 0 : payloadElsewhere) | features_;
-  Result<void> done = put(footerBytes);
+  Result<void> done = file_.put(footerBytes);
   if (done)
   {
-    done = flush();
+    done = file_.flush();
   }
   if (done)
   {
     const std::vector<std::byte> headerBytes = encodeHeader(header);
-    done = file_->overwrite(0, headerBytes.data(), headerBytes.size());
+    done = file_.file().overwrite(0, headerBytes.data(), headerBytes.size());
   }
-  return done ? file_->publish() : done;
+  return done ? file_.file().publish() : done;
 }
 } // namespace
 

@@ -1,8 +1,7 @@
 #pragma once
 
 #include "pointfront/Base/Result.h"
-#include "pointfront/Disk/LatePieces.h"
-#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Payload/PayloadPlaces.h"
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoredCloud.h"
@@ -54,14 +53,13 @@ struct WrittenPayloads
   std::string storeName; ///< file name of the store
   std::string nameMeanwhile; ///< the file's name while it is written
   std::uint64_t bytes = 0; ///< bytes of that file, to be relied on from now on
-  BlockDirectory directory{ 1 }; ///< by PayloadId, like the next one
-  std::vector<std::uint32_t> pointCounts;
+  PayloadPlaces places{ {}, {} }; ///< by PayloadId, with those of which that file has nothing yet
+  std::vector<std::uint32_t> pointCounts; ///< likewise
   GridBounds bounds;
   std::vector<ColumnRange> ranges; ///< range of all their points, one for each column
-  LatePieces late{ {} }; ///< those of which that file has nothing yet
 };
 
-/// Writes a store: payloads one after another, then the table. Whole or absent: writes an
+/// Writes a store: payloads (PayloadPlaces.h), then the tables. Whole or absent: writes an
 /// OutputFile, which commit() publishes; a writer that is destroyed without commit() removes it.
 /// Threads  one thread.
 /// Errors   Unwritable, with the bytes that were missing when the disk is full.

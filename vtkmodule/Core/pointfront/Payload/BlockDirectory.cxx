@@ -1,9 +1,8 @@
-#include "pointfront/Store/BlockDirectory.h"
+#include "pointfront/Payload/BlockDirectory.h"
 
 #include "pointfront/Codec/ByteStream.h"
 
 #include <cstring>
-#include <numeric>
 
 namespace pointfront
 {
@@ -11,12 +10,6 @@ namespace
 {
 constexpr std::uint64_t nodeBytes = 3 * 8 + 8;
 constexpr std::uint64_t blockBytes = 4 + 4 + 1;
-
-template <typename T>
-void putArray(ByteWriter& out, const std::vector<T>& values)
-{
-  out.putBytes(values.data(), values.size() * sizeof(T));
-}
 
 template <typename T>
 void getArray(ByteReader& in, std::vector<T>& values, std::size_t count)
@@ -31,7 +24,7 @@ static_assert(sizeof(GridPosition) == 24, "origins are copied as they lie in mem
 void BlockDirectory::addNode(const GridPosition& origin, std::uint64_t offset)
 {
   origins_.push_back(origin);
-  offsets_.push_back(offset);
+  offsets_.push_back({ offset, offset });
 }
 
 void BlockDirectory::addBlock(std::uint32_t bytes, std::uint32_t checksum, BlockCodec codec)
@@ -39,28 +32,6 @@ void BlockDirectory::addBlock(std::uint32_t bytes, std::uint32_t checksum, Block
   sizes_.push_back(bytes);
   checksums_.push_back(checksum);
   codecs_.push_back(static_cast<std::uint8_t>(codec));
-}
-
-void BlockDirectory::addNode(const BlockDirectory& other, std::uint32_t node)
-{
-  addNode(other.origin(node), other.offsets_[node]); // with the mark of its file
-  const auto append = [&](auto& own, const auto& theirs)
-  {
-    const auto first = theirs.begin() + static_cast<std::ptrdiff_t>(node) * blocksPerNode_;
-    own.insert(own.end(), first, first + blocksPerNode_);
-  };
-  append(sizes_, other.sizes_);
-  append(checksums_, other.checksums_);
-  append(codecs_, other.codecs_);
-}
-
-void BlockDirectory::reserve(std::size_t nodes)
-{
-  origins_.reserve(nodes);
-  offsets_.reserve(nodes);
-  sizes_.reserve(nodes * blocksPerNode_);
-  checksums_.reserve(nodes * blocksPerNode_);
-  codecs_.reserve(nodes * blocksPerNode_);
 }
 
 std::byte* BlockDirectory::putRecord(std::uint32_t node, std::byte* target) const
@@ -71,7 +42,10 @@ std::byte* BlockDirectory::putRecord(std::uint32_t node, std::byte* target) cons
     target += sizeof value;
   };
   put(origins_[node]);
-  put(offsets_[node]); // with the mark of its file
+  for (std::size_t piece = 0; piece < payloadPieces; ++piece)
+  {
+    put(begin(node, piece));
+  }
   const std::size_t first = std::size_t(node) * blocksPerNode_;
   for (std::size_t b = first; b < first + blocksPerNode_; ++b)
   {
@@ -82,45 +56,49 @@ std::byte* BlockDirectory::putRecord(std::uint32_t node, std::byte* target) cons
   return target;
 }
 
-void BlockDirectory::addElsewhere(const BlockDirectory& other)
+void BlockDirectory::markElsewhere()
 {
-  for (std::uint32_t node = 0; node < other.nodeCount(); ++node)
+  for (auto& offsets : offsets_)
   {
-    addNode(other, node);
-    offsets_.back() |= elsewhereBit;
+    for (std::uint64_t& offset : offsets)
+    {
+      offset |= elsewhereBit;
+    }
   }
 }
 
-std::uint64_t BlockDirectory::payloadBytes(std::uint32_t node) const
+std::uint64_t BlockDirectory::pieceBytes(std::uint32_t node, std::size_t piece) const
 {
-  const auto first = sizes_.begin() + static_cast<std::ptrdiff_t>(node) * blocksPerNode_;
-  return std::accumulate(first, first + blocksPerNode_, std::uint64_t(0));
+  const std::size_t first = std::size_t(node) * blocksPerNode_;
+  std::uint64_t sum = 0;
+  for (std::size_t b = 0; b < blocksPerNode_; ++b)
+  {
+    sum += pieceOf(b) == piece ? sizes_[first + b] : 0;
+  }
+  return sum;
+}
+
+std::uint64_t BlockDirectory::begin(std::uint32_t node, std::size_t piece) const
+{
+  return piece > 0 && pieceBytes(node, piece) == 0 ? offsets_[node][0] + pieceBytes(node, 0)
+                                                   : offsets_[node][piece];
 }
 
 BlockDirectory::Block BlockDirectory::block(std::uint32_t node, std::uint32_t block) const
 {
   const std::size_t first = std::size_t(node) * blocksPerNode_;
+  const std::uint8_t piece = pieceOf(block);
   Block result;
-  result.offset = offset(node);
-  for (std::size_t i = first; i < first + block; ++i)
+  result.offset = offset(node, piece);
+  result.elsewhere = isElsewhere(node, piece);
+  for (std::uint32_t b = 0; b < block; ++b)
   {
-    result.offset += sizes_[i];
+    result.offset += pieceOf(b) == piece ? sizes_[first + b] : 0;
   }
   result.bytes = sizes_[first + block];
   result.checksum = checksums_[first + block];
   result.codec = static_cast<BlockCodec>(codecs_[first + block]);
   return result;
-}
-
-std::vector<std::byte> BlockDirectory::encode() const
-{
-  ByteWriter out;
-  putArray(out, origins_);
-  putArray(out, offsets_);
-  putArray(out, sizes_);
-  putArray(out, checksums_);
-  putArray(out, codecs_);
-  return out.bytes();
 }
 
 std::uint64_t BlockDirectory::encodedBytes(std::uint64_t nodeCount, std::uint32_t blocksPerNode)
@@ -132,10 +110,15 @@ BlockDirectory BlockDirectory::decode(
   const std::byte* data, std::uint32_t nodeCount, std::uint32_t blocksPerNode)
 {
   ByteReader in(data, static_cast<std::size_t>(encodedBytes(nodeCount, blocksPerNode)));
-  BlockDirectory directory(blocksPerNode);
+  BlockDirectory directory(ColumnPieces(blocksPerNode - 1, 0));
   const std::size_t blocks = std::size_t(nodeCount) * blocksPerNode;
   getArray(in, directory.origins_, nodeCount);
-  getArray(in, directory.offsets_, nodeCount);
+  std::vector<std::uint64_t> offsets;
+  getArray(in, offsets, nodeCount);
+  for (const std::uint64_t offset : offsets)
+  {
+    directory.offsets_.push_back({ offset, offset });
+  }
   getArray(in, directory.sizes_, blocks);
   getArray(in, directory.checksums_, blocks);
   getArray(in, directory.codecs_, blocks);
@@ -155,11 +138,14 @@ std::string BlockDirectory::fault(const Limits& limits, bool& unknownCodec) cons
   }
   for (std::uint32_t node = 0; node < nodeCount(); ++node)
   {
-    const std::uint64_t at = offset(node);
-    const std::uint64_t end = isElsewhere(node) ? limits.endElsewhere : limits.end;
-    if (at < limits.begin || at > end || payloadBytes(node) > end - at)
+    for (std::size_t piece = 0; piece < payloadPieces; ++piece)
     {
-      return "node " + std::to_string(node) + ": its payload lies outside the file";
+      const std::uint64_t at = offset(node, piece);
+      const std::uint64_t end = isElsewhere(node, piece) ? limits.endElsewhere : limits.end;
+      if (at < limits.begin || at > end || pieceBytes(node, piece) > end - at)
+      {
+        return "node " + std::to_string(node) + ": its payload lies outside the file";
+      }
     }
     if (!inRange(origins_[node]))
     {

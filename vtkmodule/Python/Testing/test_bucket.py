@@ -5,6 +5,7 @@ import hashlib
 import json
 import os
 import pathlib
+import random
 import signal
 import socket
 import subprocess
@@ -12,13 +13,17 @@ import sys
 import tempfile
 import time
 import unittest
+from unittest import mock
 
 SUPPORT = pathlib.Path(__file__).resolve().parents[3] / "Testing" / "Support"
 sys.path.insert(0, str(SUPPORT))
 
 from bucket_server import HERE, BucketServer  # pylint: disable=wrong-import-position
 
-from pointfront._host import TOOL  # pylint: disable=wrong-import-position
+# pylint: disable=wrong-import-position
+from pointfront._bucket import Bucket
+from pointfront._errors import PointFrontError
+from pointfront._host import TOOL
 
 OPTIONS = ("--tile", "40", "--normals", "pca", "--progress", "none")
 COMMAND = (sys.executable, "-B", "-m", "pointfront", "cluster", "build")
@@ -142,6 +147,36 @@ class BucketBuild(unittest.TestCase):
         self.build()
         self.assertEqual(self.puts(".pfront"), [f"countries/land/{refused}"])
         self.assertEqual(digests(self.server.objects), self.expected)
+
+    def test_a_large_tile_goes_up_in_parts(self):
+        large = self.root / "large.pfront"
+        large.write_bytes(random.Random(31).randbytes(20 << 20))
+        key = "countries/land/tiles/large.pfront"
+        with mock.patch.dict(os.environ, self.environment, clear=True):
+            bucket = Bucket(PLACE)
+        puts = []
+
+        def weather(method, _):
+            if method == "PUT":
+                puts.append(method)
+            return 503 if len(puts) == 2 and method == "PUT" else None
+
+        self.server.before = weather
+        bucket.put(str(large), "tiles/large.pfront")
+        self.assertGreater(len(puts), 3)  # two parts at least, and one of them again
+        self.assertEqual([made for method, made in self.server.requests if method == "POST"],
+                         [key, key])  # begun, and put together
+        self.assertEqual(self.server.objects, {key: large.read_bytes()})
+        again = self.root / "again.pfront"
+        bucket.get("tiles/large.pfront", str(again))
+        self.assertEqual(again.read_bytes(), large.read_bytes())
+        # A part that cannot be written: no object, and what is there of the upload is given up.
+        self.server.objects.clear()
+        self.server.before = lambda method, _: 403 if method == "PUT" else None
+        with self.assertRaisesRegex(PointFrontError, f"cannot write {PLACE}/tiles/large.pfront"):
+            bucket.put(str(large), "tiles/large.pfront")
+        self.assertEqual(self.server.objects, {})
+        self.assertIn(("DELETE", key), self.server.requests)
 
     def killed_at(self, ending):
         """A build that is killed, with its workers, when it uploads an object of such a name: the

@@ -58,6 +58,8 @@ public:
     {
       return pieces.error();
     }
+    held_ += pieces->heldBytes;
+    resources_.memoryBytes -= pieces->heldBytes;
     Result<PointSources> sources =
       apply(std::move(pieces->sources), firstWithReach(*task_.passes), task_.passes->end());
     if (!sources)

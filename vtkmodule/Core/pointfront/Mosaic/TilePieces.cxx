@@ -12,9 +12,13 @@ namespace pointfront
 {
 namespace
 {
-/// The part of a chunk that lies in the box, in the file: positions, then column after column.
+/// Less memory than this is left to the build, which may need all of it.
+constexpr std::uint64_t leastToHold = std::uint64_t(512) << 20;
+
+/// The part of a chunk that lies in the box: positions, then column after column.
 struct Piece
 {
+  std::vector<std::byte> held; ///< empty: the bytes are in the file
   std::uint64_t offset = 0;
   std::uint64_t points = 0;
   std::uint64_t own = 0;
@@ -112,14 +116,18 @@ public:
     const AttributeSchema& schema = description_.schema;
     batch.resize(piece.points, schema);
     thread_local std::vector<std::byte> bytes; // kept: new memory is cleared first
-    bytes.resize(std::max(bytes.size(), piece.points * bytesOfPoint(schema)));
-    if (Result<void> done =
-          file_->read(piece.offset, bytes.data(), piece.points * bytesOfPoint(schema));
-        !done)
+    const std::byte* from = piece.held.data();
+    if (piece.held.empty())
     {
-      return done;
+      bytes.resize(std::max(bytes.size(), piece.points * bytesOfPoint(schema)));
+      if (Result<void> done =
+            file_->read(piece.offset, bytes.data(), piece.points * bytesOfPoint(schema));
+          !done)
+      {
+        return done;
+      }
+      from = bytes.data();
     }
-    const std::byte* from = bytes.data();
     const auto take = [&from](void* to, std::size_t size)
     {
       if (size > 0)
@@ -202,12 +210,13 @@ class Cutting
 {
 public:
   Cutting(const TileInputs& inputs, const TileGrid& grid, const TileIndex& tile,
-    const Bounds& known, SpillFile& file)
+    const Bounds& known, SpillFile& file, std::uint64_t holdAtMost)
     : inputs_(inputs)
     , grid_(grid)
     , tile_(tile)
     , known_(known)
     , file_(file)
+    , holdAtMost_(holdAtMost)
   {
     for (std::size_t s = 0; s < inputs.sources.size(); ++s)
     {
@@ -236,6 +245,7 @@ public:
   }
 
   std::vector<Piece>& pieces(std::size_t source) { return pieces_[source]; }
+  std::uint64_t heldBytes() const { return held_; }
 
 private:
   Result<void> cut(std::size_t input, std::size_t number, PointBatch& batch)
@@ -279,8 +289,20 @@ private:
     {
       bytes.insert(bytes.end(), column.begin(), column.end());
     }
+    return bytes.empty() ? Result<void>() : keep(piece, bytes);
+  }
+
+  /// In memory as long as there is some left, then in the file.
+  Result<void> keep(Piece& piece, const std::vector<std::byte>& bytes)
+  {
+    if (held_.fetch_add(bytes.size()) + bytes.size() <= holdAtMost_)
+    {
+      piece.held = std::vector<std::byte>(bytes.begin(), bytes.end()); // no larger than they are
+      return {};
+    }
+    held_ -= bytes.size();
     piece.offset = end_.fetch_add(bytes.size());
-    return bytes.empty() ? Result<void>() : file_.write(piece.offset, bytes.data(), bytes.size());
+    return file_.write(piece.offset, bytes.data(), bytes.size());
   }
 
   const TileInputs& inputs_;
@@ -288,10 +310,12 @@ private:
   const TileIndex& tile_;
   const Bounds& known_;
   SpillFile& file_;
+  std::uint64_t holdAtMost_;
   std::vector<std::pair<std::size_t, std::size_t>> places_; // source, number in its list
   std::vector<std::vector<Piece>> pieces_;
   std::atomic<std::size_t> next_{ 0 };
   std::atomic<std::uint64_t> end_{ 0 };
+  std::atomic<std::uint64_t> held_{ 0 };
 };
 } // namespace
 
@@ -307,12 +331,15 @@ Result<TilePieces> TilePieces::of(const TileInputs& inputs, const TileGrid& grid
     return created.error();
   }
   const std::shared_ptr<SpillFile> file = std::move(*created);
-  Cutting cutting(inputs, grid, tile, known, *file);
+  const std::uint64_t holdAtMost =
+    resources.memoryBytes >= leastToHold ? resources.memoryBytes / 4 : 0;
+  Cutting cutting(inputs, grid, tile, known, *file, holdAtMost);
   if (Result<void> done = crew.run([&] { return cutting.work(crew); }); !done)
   {
     return done.error();
   }
   TilePieces result;
+  result.heldBytes = cutting.heldBytes();
   for (std::size_t s = 0; s < inputs.sources.size(); ++s)
   {
     std::uint64_t points = 0;

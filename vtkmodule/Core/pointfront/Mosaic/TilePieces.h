@@ -23,8 +23,8 @@ struct TileInputs
   std::vector<bool> deepColours;
 };
 
-/// The points of a tile and its margin, decoded once and kept in an unnamed file in the temporary
-/// folder: sources that may be read again and again.
+/// The points of a tile and its margin, decoded once: sources that may be read again and again. A
+/// quarter of a large memory holds them, and an unnamed file in the temporary folder what is more.
 /// Order   one source for each input, in its order; chunks in theirs.
 /// Threads sources as PointSource promises.
 /// Errors  those of the inputs; Corrupt: a chunk is not as it was surveyed; Unwritable; Cancelled.
@@ -32,6 +32,7 @@ struct TilePieces
 {
   PointSources sources;
   std::vector<std::vector<std::uint64_t>> own; ///< points of each chunk that are the tile's own
+  std::uint64_t heldBytes = 0; ///< memory that the sources keep
 
   /// `known`: the box whose points are taken; it encloses the tile.
   static Result<TilePieces> of(const TileInputs& inputs, const TileGrid& grid,

@@ -59,7 +59,7 @@ def main():
     parser.add_argument("--points", type=float, default=1e11)
     parser.add_argument("--tile-points", type=float, default=1e7)
     parser.add_argument("--cores", type=int, default=320)
-    parser.add_argument("--efficiency", type=float, default=0.88)
+    parser.add_argument("--efficiency", type=float, default=0.97)
     parser.add_argument("--rate", type=float, default=2.0, help="GB/s of the shared storage")
     parser.add_argument("--core-hour", type=float, default=0.05, help="US dollars")
     parser.add_argument("--gigabyte-month", type=float, default=0.023, help="US dollars")

@@ -19,7 +19,7 @@ import psutil
 from pointfront import _cluster
 from pointfront._host import TOOL
 
-OPTIONS = ("--tile", "40", "--normals", "pca", "--height-above-ground", "--progress", "none")
+OPTIONS = ("--tile", "30", "--normals", "pca", "--height-above-ground", "--progress", "none")
 HERE = "127.0.0.1"
 COMMAND = (sys.executable, "-B", "-m", "pointfront", "cluster", "build")
 
@@ -38,6 +38,18 @@ def running(folder):
             words = process.cmdline()
             if str(folder) in words and "--only" in words and words[0] == str(TOOL):
                 found.append(process)
+    return found
+
+
+def workers_of(process):
+    """Workers that a command has begun and that still run. Its steps come and go meanwhile: one
+    that ends while it is looked at hides no worker."""
+    found = []
+    with contextlib.suppress(psutil.Error):
+        for child in psutil.Process(process.pid).children(recursive=True):
+            with contextlib.suppress(psutil.Error):
+                if "spawn_main" in " ".join(child.cmdline()):
+                    found.append(child)
     return found
 
 
@@ -184,14 +196,13 @@ class Cluster(unittest.TestCase):
         draw = random.Random(2)
         killed = 0
         while process.poll() is None and killed < 4:
-            with contextlib.suppress(psutil.Error):
-                workers = [child for child in psutil.Process(process.pid).children(recursive=True)
-                           if "spawn_main" in " ".join(child.cmdline())]
-                if workers:
+            workers = workers_of(process)
+            if workers:
+                with contextlib.suppress(psutil.Error):
                     draw.choice(workers).kill()
                     killed += 1
             with contextlib.suppress(subprocess.TimeoutExpired):
-                process.wait(2)
+                process.wait(2 if workers else 0.02)
         process.wait(180)
         said = process.stderr.read()
         process.stderr.close()

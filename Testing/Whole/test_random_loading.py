@@ -9,7 +9,7 @@ usage: test_random_loading.py [RandomLoading.test_KIND]
 import unittest
 
 from pair_test import PairTest
-from random_loading import KINDS, Loading, LoadingClouds
+from random_loading import KINDS, Loading, LoadingClouds, LoadingMeans
 
 USUAL = 4  # a scene has dozens of frames, of both back ends
 OPACITIES = (("2", 0.8), ("5", 0.7), ("6", 0.6), ("9", 0.5))
@@ -36,6 +36,11 @@ FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
             "position": [400002.5240765792, 5599663.349002757, 381.9656177524917],
             "focal_point": [400048.47211211245, 5600015.878300028, 62.01761775240042],
             "view_up": [0, 0, 1], "view_angle": 20}, "error": "0.01", "growth": 0}),
+    # The children of a node in the view lie beside it.
+    (LoadingMeans, {"cloud": 36501, "style": {"default": {}}, "camera": {
+        "position": [400043.6426056663, 5600037.154958342, 59.05258312074294],
+        "focal_point": [400039.86028327316, 5600035.324916195, 52.65274312074123],
+        "view_up": [0, 0, 1], "view_angle": 45}, "error": "1", "growth": 0}),
     # The trees of hidden classes are not loaded.
     (LoadingClouds, {"cloud": 5, "style": {"classes": {"2": {"visible": False}}}, "camera": {
         "position": [400037.03044364793, 5600028.989640989, 58.06921272895356],

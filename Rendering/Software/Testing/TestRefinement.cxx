@@ -227,14 +227,42 @@ TEST_P(RefiningView, OfATreeOfMeansDrawsNothingTwice)
   }
 }
 
-/// A tree of means whose nodes are small has a root of a few dozen points, each for a thousand.
-TEST(RefiningMeans, ARootOfAFewPointsClosesTheSurface)
+/// Means in nodes of 400 points.
+std::shared_ptr<const PointStore> fewMeans()
 {
   BuildOptions options = nodesOf(400);
   options.refinement = Refinement::Replace;
-  const std::string path = builtStore(
+  static const std::string path = builtStore(
     "few-means-" + std::to_string(getpid()), std::make_unique<TerrainSource>(40000, 11), options);
-  const std::shared_ptr<const PointStore> store = openedStore(path);
+  return openedStore(path);
+}
+
+/// Close to the ground a coarse node reaches into the view whose children all lie beside it: nothing
+/// takes its place, so that a picture with it could not go on.
+TEST(RefiningMeans, NodesWithoutAChildInTheViewAreNoPartOfIt)
+{
+  const std::shared_ptr<const PointStore> store = fewMeans();
+  ASSERT_TRUE(store);
+  const StyleSheet sheet = refiningSheet(refiningStyles[3]);
+  const Bounds box = store->description().bounds;
+  const glm::dvec3 size = box.high - box.low;
+  for (int place = 0; place < 16; ++place)
+  {
+    const glm::dvec3 share((place % 4 + 0.5) / 4.0, (place / 4 + 0.5) / 4.0, 0.5);
+    SlowView view(store, sheet);
+    view.frameRequest.targetErrorPx = 1.0;
+    view.lookAt(box.low + share * size, 0.1 * std::max(size.x, size.y));
+    const SeenFrames seen = refine(view);
+    ASSERT_TRUE(view.isComplete());
+    const auto most = static_cast<std::uint64_t>(mostDrawnAgain * double(seen.points)) + 200;
+    EXPECT_LE(seen.drawn, most) << place << ": " << seen.points << " points";
+  }
+}
+
+/// A tree of means whose nodes are small has a root of a few dozen points, each for a thousand.
+TEST(RefiningMeans, ARootOfAFewPointsClosesTheSurface)
+{
+  const std::shared_ptr<const PointStore> store = fewMeans();
   ASSERT_TRUE(store);
   const StyleSheet sheet = refiningSheet(refiningStyles[3]);
   SlowView complete(store, sheet);

@@ -213,8 +213,9 @@ LayerItems itemsByLayer(const ViewFront& front, const PlanRequest& request, doub
       {
         standIns->noteWhole(node, *complete);
       }
-      const bool standsIn = expected && !complete && ofNode(expected->replaced(), item.node);
-      if (shown.points > 0 && !standsIn)
+      const bool beside = expected && !complete &&
+        (ofNode(expected->replaced(), item.node) || expected->passesOver(item.node));
+      if (shown.points > 0 && !beside)
       {
         items[layer].push_back(complete
             ? expectedItem(std::move(node), shown, complete->item, spacingPx)

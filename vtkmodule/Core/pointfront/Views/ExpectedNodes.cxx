@@ -96,6 +96,21 @@ const TabledNode* ExpectedNodes::find(NodeIndex node) const
   return found != nodes_.end() && found->item.node == node ? &*found : nullptr;
 }
 
+bool ExpectedNodes::passesOver(NodeIndex node) const
+{
+  const bool isAbove = std::binary_search(parents_.begin(), parents_.end(), node);
+  Node row;
+  while (!isAbove && node != noNode && !find(node))
+  {
+    if (hierarchy_->peek(node, row) != RowState::Here)
+    {
+      return false;
+    }
+    node = row.parent;
+  }
+  return !isAbove && node == noNode;
+}
+
 std::uint32_t ExpectedNodes::finerNodes(NodeIndex node) const
 {
   const auto range = std::equal_range(parents_.begin(), parents_.end(), node);

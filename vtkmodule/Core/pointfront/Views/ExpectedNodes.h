@@ -38,6 +38,10 @@ public:
   std::uint64_t points() const { return points_; }
   /// Points of nodes among or in place of which finer nodes are drawn, by level.
   const std::vector<std::uint64_t>& refinedPoints() const { return refinedPoints_; }
+  /// Whether the complete view draws neither this node nor one below nor one above it: those below
+  /// it lie beside the view, so that with Replace nothing takes its place. False while rows are
+  /// missing.
+  bool passesOver(NodeIndex node) const;
   /// How many of them and of those that they replace lie right below a node.
   std::uint32_t finerNodes(NodeIndex node) const;
 

@@ -237,7 +237,7 @@ std::shared_ptr<const PointStore> fewMeans()
   return openedStore(path);
 }
 
-/// Close to the ground a coarse node reaches into the view whose children all lie beside it: nothing
+/// Close to the ground a coarse node reaches into the view and its children lie beside it: nothing
 /// takes its place, so that a picture with it could not go on.
 TEST(RefiningMeans, NodesWithoutAChildInTheViewAreNoPartOfIt)
 {

@@ -108,8 +108,9 @@ void RasterPasses::drawKeys(const RasterItems& items, const RasterWindow& now,
   drawInto(buffers[0]); // all are merged into these
 }
 
-/// All threads' keys into the first one's.
-void RasterPasses::mergeKeys(const RasterWindow& now)
+/// All threads' keys into the first one's. Calls `then` with each row's place while it is at hand.
+template <typename Then>
+void RasterPasses::mergeKeys(const RasterWindow& now, const Then& then)
 {
   RasterKey* const merged = buffers[0].keys.data();
   crew.run(static_cast<std::size_t>(now.height + 2 * rasterMargin),
@@ -125,6 +126,7 @@ void RasterPasses::mergeKeys(const RasterWindow& now)
           merged[p] = keys[p] < merged[p] ? keys[p] : merged[p];
         }
       }
+      then(begin, end);
     });
   std::for_each(
     buffers.begin() + 1, buffers.end(), [](ThreadBuffers& one) { one.keysDrawn = false; });
@@ -133,12 +135,10 @@ void RasterPasses::mergeKeys(const RasterWindow& now)
 /// The same, and the depth of each: infinite negative where nothing is.
 void RasterPasses::mergeKeys(const RasterWindow& now, float* depths)
 {
-  mergeKeys(now);
   const RasterKey* const merged = buffers[0].keys.data();
-  crew.run(static_cast<std::size_t>(now.height + 2 * rasterMargin),
-    [&](std::size_t y, unsigned)
+  mergeKeys(now,
+    [&](std::int64_t begin, std::int64_t end)
     {
-      const std::int64_t begin = std::int64_t(y) * now.stride, end = begin + now.stride;
       for (std::int64_t p = begin; p < end; ++p)
       {
         const RasterKey key = merged[p];
@@ -149,16 +149,11 @@ void RasterPasses::mergeKeys(const RasterWindow& now, float* depths)
 
 RasterBuffer<RasterKey> RasterPasses::copyOfKeys(const RasterWindow& now)
 {
-  mergeKeys(now);
   RasterBuffer<RasterKey> copy;
   const RasterKey* const keys = buffers[0].keys.data();
   RasterKey* const copied = copy.ofSize(now.pixels());
-  crew.run(static_cast<std::size_t>(now.height + 2 * rasterMargin),
-    [&](std::size_t y, unsigned)
-    {
-      const std::int64_t begin = std::int64_t(y) * now.stride;
-      std::copy(keys + begin, keys + begin + now.stride, copied + begin);
-    });
+  mergeKeys(now, [&](std::int64_t begin, std::int64_t end)
+    { std::copy(keys + begin, keys + end, copied + begin); });
   return copy;
 }
 
@@ -282,6 +277,10 @@ void RasterPasses::addColours(const RasterItems& items, const RasterWindow& now,
   else
   {
     last.exact = true;
+    if (!buffers[0].sums.data()) // they went with the last picture
+    {
+      std::swap(buffers[0].sums, last.sums); // their memory, which is costly to get
+    }
     addPiecesTo(items, now, depths, pieces.there, lasting);
   }
   addPiecesTo(items, now, depths, pieces.lasting, lasting);

@@ -55,7 +55,8 @@ public:
 private:
   void drawKeys(const RasterItems& items, const RasterWindow& now,
     const std::vector<RasterPiece>& pieces, bool goingOn);
-  void mergeKeys(const RasterWindow& now);
+  template <typename Then>
+  void mergeKeys(const RasterWindow& now, const Then& then);
   void mergeKeys(const RasterWindow& now, float* depths);
   RasterBuffer<RasterKey> copyOfKeys(const RasterWindow& now);
   void addColours(const RasterItems& items, const RasterWindow& now,

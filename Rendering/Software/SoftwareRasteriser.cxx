@@ -73,8 +73,7 @@ struct SoftwareRasteriser::Content
     const RasterPart& part, bool fits);
   void drawRound(const RasterItems& items, Drawing& drawing);
   void drawAtOnce(const RasterItems& items, RasterWindow window, Drawing& drawing);
-  std::uint64_t drawStandIns(
-    const FramePlan& plan, std::uint32_t picture, const Drawing& seen, std::uint64_t& blended);
+  std::uint64_t drawStandIns(const FramePlan& plan, std::uint32_t picture, const Drawing& seen);
   void keep(const RasterItems& items, const RasterWindow& window, Drawing& drawing,
     RasterPasses::Lasting lasting);
 };
@@ -205,9 +204,10 @@ void SoftwareRasteriser::Content::drawRound(const RasterItems& items, Drawing& d
   }
 }
 
-/// Behind what is drawn already, level by level. Returns the number of points that are new.
+/// Behind what is drawn already, level by level, and opaque, as on OpenGL: the screen is passed
+/// over once for each. Returns the number of points that are new.
 std::uint64_t SoftwareRasteriser::Content::drawStandIns(
-  const FramePlan& plan, std::uint32_t picture, const Drawing& seen, std::uint64_t& blended)
+  const FramePlan& plan, std::uint32_t picture, const Drawing& seen)
 {
   std::map<std::uint8_t, LastPicture>& levels = lastStandIns[picture];
   std::set<std::uint8_t> present;
@@ -222,7 +222,7 @@ std::uint64_t SoftwareRasteriser::Content::drawStandIns(
     {
       standIns.batches.push_back(*batch);
     }
-    const RasterItems items(standIns, 0);
+    const RasterItems items(standIns, 0, true);
     if (!items.last())
     {
       continue; // more than 32 bits can count: the picture has holes until it is complete
@@ -231,7 +231,6 @@ std::uint64_t SoftwareRasteriser::Content::drawStandIns(
     drawing.destination.standIns = true;
     drawRound(items, drawing);
     drawn += drawing.drawn;
-    blended += drawing.blended;
     present.insert(level);
   }
   for (auto each = levels.begin(); each != levels.end();)
@@ -282,7 +281,7 @@ RasterStatistics SoftwareRasteriser::Content::draw(const FramePlan& asked, Softw
   }
   statistics.reused = drawing.reused;
   statistics.blended = drawing.blended;
-  statistics.standIns = drawStandIns(asked, picture, drawing, statistics.blended);
+  statistics.standIns = drawStandIns(asked, picture, drawing);
   statistics.drawn = drawing.drawn + statistics.standIns;
   statistics.milliseconds =
     std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();

@@ -91,9 +91,10 @@ SizeTerms RasterItem::sizeTerms() const
   return terms;
 }
 
-RasterItems::RasterItems(const FramePlan& plan, std::size_t from)
+RasterItems::RasterItems(const FramePlan& plan, std::size_t from, bool opaque)
   : plan_(plan)
   , first_(from == 0)
+  , opaque_(opaque)
 {
   for (const DrawBatch& batch : plan.batches)
   {
@@ -138,6 +139,7 @@ void RasterItems::append(RasterItem item)
 {
   item.base = numbers_.end();
   numbers_.append(static_cast<std::uint32_t>(item.node().size()));
+  item.passes.blended = item.passes.blended && !opaque_;
   blended_ = blended_ || item.passes.blended;
   items_.push_back(std::move(item));
 }

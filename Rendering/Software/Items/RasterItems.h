@@ -104,8 +104,8 @@ class RasterItems
 {
 public:
   /// Takes the plan's items, in the order of their nodes, those from `from` on that fit into 32
-  /// bits. The plan outlives this object.
-  RasterItems(const FramePlan& plan, std::size_t from);
+  /// bits. The plan outlives this object. `opaque`: nothing is blended, whatever the styles say.
+  RasterItems(const FramePlan& plan, std::size_t from, bool opaque = false);
 
   /// Number of the plan's items that are in this or earlier rounds.
   std::size_t end() const { return end_; }
@@ -155,6 +155,7 @@ private:
   glm::mat3 normalToCamera_{ 1.0f };
   std::size_t end_ = 0;
   bool first_ = true;
+  bool opaque_ = false;
   bool blended_ = false;
 };
 

@@ -152,7 +152,8 @@ RasterBuffer<RasterKey> RasterPasses::copyOfKeys(const RasterWindow& now)
   RasterBuffer<RasterKey> copy;
   const RasterKey* const keys = buffers[0].keys.data();
   RasterKey* const copied = copy.ofSize(now.pixels());
-  mergeKeys(now, [&](std::int64_t begin, std::int64_t end)
+  mergeKeys(now,
+    [&](std::int64_t begin, std::int64_t end)
     { std::copy(keys + begin, keys + end, copied + begin); });
   return copy;
 }

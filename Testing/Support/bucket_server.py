@@ -7,28 +7,15 @@ that the request is refused with.
 """
 
 import hashlib
-import http.server
-import socket
-import threading
 import urllib.parse
 from xml.sax.saxutils import escape
 
 import signature_v4
+from local_server import HERE, Connection, LocalServer
 
-HERE = "127.0.0.1"
 
-
-class Handler(http.server.BaseHTTPRequestHandler):
+class Handler(Connection):
     """One connection."""
-
-    protocol_version = "HTTP/1.1"
-
-    def setup(self):
-        super().setup()
-        self.connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, True)
-
-    def log_message(self, *_):  # pylint: disable=arguments-differ
-        pass
 
     def answer(self, status, body=b"", **headers):
         self.send_response(status)
@@ -143,38 +130,21 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.answer(204)
 
 
-class BucketServer(http.server.ThreadingHTTPServer):
-    """The server, in threads of this process."""
+class BucketServer(LocalServer):
+    """The server."""
 
     BUCKET = "land-of-the-tests"
-    daemon_threads = True
-    request_queue_size = 128
 
     def __init__(self, page=1000):
-        super().__init__((HERE, 0), Handler)
+        super().__init__(Handler)
         self.endpoint = f"http://{HERE}:{self.server_port}"
         self.page = page  # keys in an answer of a list
         self.objects = {}
         self.parts = {}
-        self.requests = []
-        self.lock = threading.Lock()
         self.before = lambda method, key: None
-        self._thread = threading.Thread(target=self.serve_forever, args=(0.05,), daemon=True)
 
     def environment(self):
         """The variables by which a program finds it, and may write."""
         return {"AWS_ENDPOINT_URL": self.endpoint, "AWS_REGION": "eu-central-1",
                 "AWS_ACCESS_KEY_ID": signature_v4.KEY_ID, "AWS_SECRET_ACCESS_KEY": signature_v4.KEY,
                 "AWS_EC2_METADATA_DISABLED": "true", "no_proxy": HERE}
-
-    def handle_error(self, request, client_address):
-        """A client that went away is no news."""
-
-    def __enter__(self):
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_):
-        self.shutdown()
-        self._thread.join()
-        self.server_close()

@@ -11,7 +11,6 @@ signatures of version 4 (signature_v4.py).
 import argparse
 import email.utils
 import hashlib
-import http.server
 import json
 import os
 import pathlib
@@ -25,6 +24,8 @@ import time
 import urllib.parse
 
 from far_weather import Weather
+from local_server import Connection, LocalServer
+
 
 def wanted_range(header, size):
     """[begin, end) of a Range header; None without one; False if it cannot be had."""
@@ -39,17 +40,8 @@ def wanted_range(header, size):
     return (begin, end) if begin < min(end, size) else False
 
 
-class Handler(http.server.BaseHTTPRequestHandler):
+class Handler(Connection):
     """One connection."""
-
-    protocol_version = "HTTP/1.1"
-
-    def setup(self):
-        super().setup()
-        self.connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, True)
-
-    def log_message(self, *_):  # pylint: disable=arguments-differ
-        pass
 
     def file_name(self):
         parts = urllib.parse.urlsplit(self.path).path.strip("/").split("/")
@@ -90,6 +82,7 @@ class Handler(http.server.BaseHTTPRequestHandler):
                 "encoding": self.headers.get("Accept-Encoding"),
                 "authorization": self.headers.get("Authorization") is not None})
             times = self.server.times[key] = self.server.times.get(key, 0) + 1
+        self.server.before(self.path)
         if not inside or not path.is_file():
             self.refuse(404)
             return
@@ -203,40 +196,27 @@ class FileBytes:
         self._file.close()
 
 
-class FarServer(http.server.ThreadingHTTPServer):
-    """`with FarServer(folder) as server: server.port, server.requests`."""
-
-    daemon_threads = True
-    request_queue_size = 128
+class FarServer(LocalServer):
+    """`with FarServer(folder) as server: server.port, server.requests`. `server.before` is called
+    with the path before a request is answered, and may wait."""
 
     def __init__(self, folder, certificate=None):
-        super().__init__(("127.0.0.1", 0), Handler)
+        super().__init__(Handler)
         if certificate:
             context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
             context.load_cert_chain(certificate)
             self.socket = context.wrap_socket(self.socket, server_side=True)
         self.folder = pathlib.Path(folder).resolve()
-        self.lock = threading.Lock()
         self.ending = threading.Event()
-        self.requests = []
         self.faults = []
         self.times = {}
+        self.before = lambda path: None
         self.under_way = 0
         self.port = self.server_port
-        self._thread = threading.Thread(target=self.serve_forever, args=(0.05,), daemon=True)
 
-    def handle_error(self, request, client_address):
-        """A client that went away is no news."""
-
-    def __enter__(self):
-        self._thread.start()
-        return self
-
-    def __exit__(self, *_):
+    def __exit__(self, *failure):
         self.ending.set()
-        self.shutdown()
-        self._thread.join()
-        self.server_close()
+        super().__exit__(*failure)
 
 
 def main():

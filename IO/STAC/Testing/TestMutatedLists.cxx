@@ -1,12 +1,13 @@
 #include "ItemCollection.h"
 
 #include "RandomRounds.h"
+#include "TextMutation.h"
 
 #include <gtest/gtest.h>
 
 #include <cstddef>
-#include <random>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -23,47 +24,8 @@ const std::string sound =
    "assets": {"points": {"href": "https://host/b/../c?sig=1", "pc:count": 1e3,
               "type": "application/vnd.laszip+copc"}}}]})";
 
-class Mutation
-{
-public:
-  explicit Mutation(unsigned seed)
-    : random_(seed)
-  {
-  }
-  std::string of(std::string text)
-  {
-    for (std::size_t times = 1 + below(4); times > 0 && !text.empty(); --times)
-    {
-      const std::size_t at = below(text.size());
-      const std::size_t size = 1 + below(below(8) == 0 ? 200 : 6);
-      switch (below(5))
-      {
-        case 0:
-          text[at] = static_cast<char>(below(256));
-          break;
-        case 1:
-          text.erase(at, size);
-          break;
-        case 2:
-          text.insert(below(text.size()), text.substr(at, size));
-          break;
-        case 3:
-          text.replace(at, size, words_[below(std::size(words_))]);
-          break;
-        default:
-          text.resize(at);
-      }
-    }
-    return text;
-  }
-
-private:
-  std::size_t below(std::size_t most) { return random_() % most; }
-
-  static constexpr const char* words_[] = { "null", "[]", "{}", "-1", "1e999", "\"\"", "\\u0000",
-    "18446744073709551616", "[[[[[[[[", "../../", "file:///", "\xff\xfe", "://", "true", "#far:" };
-  std::mt19937 random_;
-};
+const std::vector<const char*> words = { "null", "[]", "{}", "-1", "1e999", "\"\"", "\\u0000",
+  "18446744073709551616", "[[[[[[[[", "../../", "file:///", "\xff\xfe", "://", "true", "#far:" };
 
 void expectSound(const ItemCollection& list, unsigned seed)
 {
@@ -88,7 +50,8 @@ TEST(ItemCollection, MutatedListsAreReadOrSayWhy)
   const unsigned rounds = test::randomRounds(2000);
   for (unsigned seed = 0; seed < rounds; ++seed)
   {
-    const Result<ItemCollection> list = ItemCollection::parse(Mutation(seed).of(sound), "x.vpc");
+    test::TextMutation mutation(seed, words);
+    const Result<ItemCollection> list = ItemCollection::parse(mutation.of(sound), "x.vpc");
     taken += list ? 1 : 0;
     if (list)
     {

@@ -13,7 +13,6 @@ import tempfile
 import time
 import unittest
 
-import distributed
 import psutil
 
 from pointfront import _cluster
@@ -118,11 +117,10 @@ class Cluster(unittest.TestCase):
         self.assertEqual(again["tiles_built"], 0)
 
     def test_workers_of_a_scheduler(self):
-        with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None,
-                                      memory_limit=0) as cluster:
-            self.build("--scheduler", cluster.scheduler_address, "--threads", "1")
-            address = cluster.scheduler_address
+        processes, address = self.scheduler()
+        self.build("--scheduler", address, "--threads", "1")
         self.assertEqual(tree(self.land), self.expected)
+        self.end(processes)
         said = self.build("--scheduler", address, status=1).stderr
         self.assertIn("pointfront cluster build: ", said)
 

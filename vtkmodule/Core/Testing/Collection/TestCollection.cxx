@@ -275,52 +275,96 @@ TEST_F(Collections, GrowAndShrinkTileByTile)
   EXPECT_TRUE(opened()->verify()->ok);
 }
 
-/// Stores of older versions of the format beside those of this one.
-TEST_F(Collections, TakeTilesOfAnyVersion)
+/// Points and the sum of their identities.
+struct Identities
 {
-  const SampleStore sample = makeSample(260);
-  std::vector<TileRequest> tiles;
-  for (int version = 1; version <= 4; ++version)
+  std::uint64_t points = 0;
+  std::uint64_t sum = 0;
+
+  void add(const std::byte* identity)
   {
-    const std::string name = "version" + std::to_string(version) + "-all-codecs.pfront";
-    fs::copy_file(goldenFile(name), at(name));
-    tiles.push_back({ at(name) });
+    std::uint64_t number = 0;
+    std::memcpy(&number, identity, 8);
+    ++points;
+    sum += number;
   }
-  writeSample(sample, at("now.pfront"));
-  const TileRequest now{ at("now.pfront") };
-  created(tiles);
-  const std::uint64_t own = 6 * 260;
-  EXPECT_EQ(opened()->description().pointCount, 4 * own);
-  sound(addTiles(city(), { now }, {}));
-  const auto cloud = opened();
-  std::uint64_t identities = 0;
-  std::uint64_t found = 0;
-  const auto report = queryPoints(*cloud, PointQuery(), {},
+};
+
+Identities identitiesOf(const CollectionCloud& cloud)
+{
+  Identities all;
+  const auto report = queryPoints(cloud, PointQuery(), {},
     [&](QueryBatch& batch) -> Result<void>
     {
-      const std::size_t column = *cloud->description().schema.find("identity");
-      for (std::size_t i = 0; i < batch.size(); ++i, ++found)
+      const std::size_t column = *cloud.description().schema.find("identity");
+      for (std::size_t i = 0; i < batch.size(); ++i)
       {
-        std::uint64_t identity = 0;
-        std::memcpy(&identity, batch.points.columns[column].data() + 8 * i, 8);
-        identities += identity;
+        all.add(batch.points.columns[column].data() + 8 * i);
       }
       return {};
     });
-  ASSERT_TRUE(report) << report.error().what;
-  std::uint64_t expectedIdentities = 0;
-  for (const NodeColumns& node : sample.points)
+  EXPECT_TRUE(report) << report.error().what;
+  return all;
+}
+
+/// Collections of tiles that have the points of a sample, whatever version wrote them.
+class CollectionsOfSamples : public CollectionTest
+{
+protected:
+  TileRequest golden(int version)
   {
-    for (std::size_t i = 0; i < node.size(); ++i)
-    {
-      std::uint64_t identity = 0;
-      std::memcpy(&identity, node.columns[10].data() + 8 * i, 8);
-      expectedIdentities += 5 * identity;
-    }
+    const std::string name = "version" + std::to_string(version) + "-all-codecs.pfront";
+    fs::copy_file(goldenFile(name), at(name));
+    return { at(name) };
   }
-  EXPECT_EQ(found, 5 * own);
-  EXPECT_EQ(identities, expectedIdentities);
-  EXPECT_TRUE(cloud->verify()->ok) << cloud->verify()->firstError;
+  TileRequest now()
+  {
+    writeSample(sample_, at("now.pfront"));
+    return { at("now.pfront") };
+  }
+  void expectTiles(std::uint64_t tiles)
+  {
+    Identities own;
+    for (const NodeColumns& node : sample_.points)
+    {
+      for (std::size_t i = 0; i < node.size(); ++i)
+      {
+        own.add(node.columns[10].data() + 8 * i);
+      }
+    }
+    const auto cloud = opened();
+    EXPECT_EQ(cloud->description().pointCount, tiles * own.points);
+    const Identities found = identitiesOf(*cloud);
+    EXPECT_EQ(found.points, tiles * own.points);
+    EXPECT_EQ(found.sum, tiles * own.sum);
+    EXPECT_TRUE(cloud->verify()->ok) << cloud->verify()->firstError;
+  }
+
+private:
+  SampleStore sample_ = makeSample(260);
+};
+
+TEST_F(CollectionsOfSamples, TakeTilesOfAnyVersion)
+{
+  created({ golden(1), golden(2), golden(3), golden(4) });
+  expectTiles(4);
+  sound(addTiles(city(), { now() }, {}));
+  expectTiles(5);
+}
+
+/// The file has the layout of stores of version 3. A change copies its heads into one of today.
+TEST_F(CollectionsOfSamples, AFileOfVersion3OpensAndChanges)
+{
+  fs::copy_file(goldenFile("version3.pfcollection"), city());
+  golden(2);
+  golden(3);
+  expectTiles(2);
+  sound(addTiles(city(), { golden(4), now() }, {}));
+  expectTiles(4);
+  sound(removeTiles(city(), { "version2-all-codecs" }, {}));
+  expectTiles(3);
+  sound(undoCollection(city(), {}));
+  expectTiles(4);
 }
 
 TEST_F(Collections, TakeTilesWithOtherAttributesAndGrids)

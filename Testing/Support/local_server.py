@@ -1,4 +1,4 @@
-"""What the web servers of the tests share: a connection, and a server in threads of this process."""
+"""A connection and a server in threads of this process, which the tests' web servers share."""
 
 import http.server
 import socket

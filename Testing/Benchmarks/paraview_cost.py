@@ -16,13 +16,14 @@ process so far (VmHWM).
 
 The plugin draws to a spacing of 1 pixel (Target Error), but for the last step; ParaView's Point
 Gaussian draws all points always.
-PYTHONPATH has ParaView's Python package.
+The build folder's cache says where ParaView's Python package is.
 """
 
 import argparse
 import json
 import os
 import pathlib
+import re
 import sys
 import time
 
@@ -128,7 +129,19 @@ def call(*words):
     return time.perf_counter() - begin, printed
 
 
+def find_package(build):
+    """Lets what is run find ParaView's Python package."""
+    found = re.search(r"^POINTFRONT_PARAVIEW_PYTHON:PATH=(.+)$",
+                      (build / "CMakeCache.txt").read_text(), flags=re.M)
+    if found is None:
+        sys.exit(f"{build}/CMakeCache.txt names no POINTFRONT_PARAVIEW_PYTHON: build the preset "
+                 "paraview with its tests")
+    known = os.environ.get("PYTHONPATH")
+    os.environ["PYTHONPATH"] = os.pathsep.join([found.group(1), *([known] if known else [])])
+
+
 def measured(options):
+    find_package(options.build)
     tool = options.build / "bin/pointfront"
     plugin = next(options.build.glob("lib/paraview-*/plugins/PointFront/PointFront.so"))
     store, ply = options.work / "cloud.pfront", options.work / "cloud.ply"

@@ -1,9 +1,12 @@
 """A bucket as the output of `pointfront cluster build`: `s3://BUCKET/PREFIX`."""
 
 import contextlib
+import fcntl
+import glob
 import json
 import os
 import re
+import shutil
 import tempfile
 import threading
 import time
@@ -13,6 +16,7 @@ from ._errors import PointFrontError
 
 AT_ONCE = 16  # downloads of small objects
 TRIES = 5  # for each request
+IN_USE = "in-use"  # a file of a workplace that its process keeps locked
 
 _lock = threading.Lock()
 _known = {}  # workplaces by address and run
@@ -145,8 +149,12 @@ class Workplace:
     def __init__(self, address):
         self.bucket = Bucket(address)
         self.address = self.bucket.address
+        own = _own_folder()
+        if own is None:
+            _remove_abandoned(tempfile.gettempdir())
         self._place = tempfile.TemporaryDirectory(  # pylint: disable=consider-using-with
-            prefix="pointfront-", dir=_own_folder())
+            prefix="pointfront-", dir=own)
+        self._in_use = _marked(self._place.name)
         self.folder = os.path.join(self._place.name, self.bucket.name)
         self.collection = f"{self.bucket.name}.pfcollection"
         self.options = ("-o", self.folder, "--published", self.address)
@@ -260,6 +268,23 @@ class Workplace:
         for name in (*self.bucket.names("tiles/"), *self.bucket.names("work/tile-")):
             if name not in kept:
                 self.bucket.remove(name)
+
+
+def _marked(place):
+    """The open file that says that the folder is in use, as long as this process lives."""
+    draft = os.path.join(place, f"{IN_USE}.new")
+    file = open(draft, "wb")  # pylint: disable=consider-using-with
+    fcntl.flock(file, fcntl.LOCK_EX)
+    os.rename(draft, os.path.join(place, IN_USE))  # locked from the first
+    return file
+
+
+def _remove_abandoned(parent):
+    """Removes folders of builds that were killed."""
+    for mark in glob.glob(os.path.join(glob.escape(parent), "pointfront-*", IN_USE)):
+        with contextlib.suppress(OSError), open(mark, "rb") as file:
+            fcntl.flock(file, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            shutil.rmtree(os.path.dirname(mark))
 
 
 def _own_folder():

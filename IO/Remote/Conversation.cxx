@@ -1,12 +1,12 @@
 #include "Conversation.h"
 
+#include "AnswerHeaders.h"
 #include "TransferLoop.h"
 
 #include "pointfront/Disk/StopOfReads.h"
 
 #include <algorithm>
 #include <cctype>
-#include <cstdlib>
 #include <memory>
 #include <random>
 #include <thread>
@@ -20,7 +20,6 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds longestPause{ 8000 };
-constexpr milliseconds longestAskedPause{ 30000 }; ///< by Retry-After
 
 bool isForNow(long status)
 {
@@ -39,15 +38,6 @@ milliseconds jittered(milliseconds pause)
   static thread_local std::minstd_rand chance(std::random_device{}());
   std::uniform_real_distribution<double> share(0.5, 1.0);
   return milliseconds(static_cast<long>(share(chance) * static_cast<double>(pause.count())));
-}
-
-/// The pause that a server asks for; dates are not read, since its clock is not ours.
-milliseconds askedPause(const HttpAnswer& answer)
-{
-  const std::string text = answer.header("retry-after");
-  const long seconds = text.empty() ? 0 : std::strtol(text.c_str(), nullptr, 10);
-  return std::clamp(
-    milliseconds(1000 * std::clamp(seconds, 0L, 3600L)), milliseconds(0), longestAskedPause);
 }
 
 bool isStopped(const std::atomic<bool>& cancelled)
@@ -147,7 +137,8 @@ HttpQuestion Conversation::questionFor(
 Result<void> Conversation::compare(
   const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const
 {
-  const RemoteIdentity found{ answer.header("etag"), answer.header("last-modified"), bytes };
+  const RemoteIdentity found{ answer.header("etag"), answer.header("last-modified"), bytes, false,
+    unchangedFor(answer) };
   if (!identity)
   {
     identity = found;

@@ -25,6 +25,7 @@ struct RemoteIdentity
   std::string changed; ///< Last-Modified
   std::uint64_t bytes = 0;
   bool replaced = false; ///< an answer was of another file
+  std::chrono::seconds unchangedFor{ 0 }; ///< the server's promise, from its first answer on
 };
 
 /// Bytes of a far file that are wanted, and what has come of them.

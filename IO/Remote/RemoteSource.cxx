@@ -5,6 +5,7 @@
 #include "pointfront/Disk/FarSegment.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cstring>
 #include <functional>
 #include <optional>
@@ -78,6 +79,23 @@ std::vector<WantedBytes> requestsFor(std::vector<Interval> needed, std::uint64_t
   return requests;
 }
 
+std::int64_t now()
+{
+  return std::chrono::duration_cast<std::chrono::seconds>(
+    std::chrono::system_clock::now().time_since_epoch())
+    .count();
+}
+
+std::int64_t lastsUntil(std::chrono::seconds unchanged)
+{
+  return unchanged.count() > 0 ? now() + unchanged.count() : 0;
+}
+
+bool isPromised(const FarIdentity& last)
+{
+  return now() < last.lastsUntil;
+}
+
 /// Copies what of [first, first + size) lies in the piece; `target` is for `first`.
 void copyFrom(const WantedBytes& piece, std::uint64_t first, std::uint64_t size, std::byte* target)
 {
@@ -109,7 +127,8 @@ RemoteSource::RemoteSource(
   , identity_(std::move(identity))
   , cache_(std::move(local.cache))
   , offline_(local.offline)
-  , kept_{ conversation_->place(), identity_.bytes, identity_.tag, identity_.changed }
+  , kept_{ conversation_->place(), identity_.bytes, identity_.tag, identity_.changed,
+    lastsUntil(identity_.unchangedFor) }
 {
 }
 
@@ -132,8 +151,13 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::open(
     return openOffline(std::move(conversation), std::move(local));
   }
   const std::shared_ptr<const FarCache>& cache = local.cache;
+  const std::optional<FarIdentity> last = cache ? cache->last(conversation->place()) : std::nullopt;
+  if (last && isPromised(*last))
+  {
+    return openAsKept(std::move(conversation), *last, std::move(local));
+  }
   // A file that was kept is asked only whether it is still the same.
-  const bool known = cache && cache->last(conversation->place());
+  const bool known = last.has_value();
   // Whole blocks, so that they can be kept.
   std::vector<WantedBytes> ends(first.tail > 0 && !known ? 2 : 1);
   ends[0].size = known ? leastHead : std::max<std::uint64_t>(first.head, leastHead);
@@ -187,7 +211,17 @@ Result<std::shared_ptr<const RemoteSource>> RemoteSource::openOffline(
     return makeError(Error::Kind::NotFound,
       "'" + conversation->name() + "' is not in the cache, and no server is asked (offline)");
   }
-  RemoteIdentity identity{ last->tag, last->date, last->bytes };
+  return openAsKept(std::move(conversation), *last, std::move(local));
+}
+
+/// Without a question: what the cache lacks is asked for as bytes of that state.
+std::shared_ptr<const RemoteSource> RemoteSource::openAsKept(
+  std::unique_ptr<const Conversation> conversation, const FarIdentity& last, Local local)
+{
+  RemoteIdentity identity;
+  identity.tag = last.tag;
+  identity.changed = last.date;
+  identity.bytes = last.bytes;
   return std::shared_ptr<const RemoteSource>(
     new RemoteSource(std::move(conversation), std::move(identity), std::move(local)));
 }
@@ -335,6 +369,10 @@ Result<void> RemoteSource::ask(const std::vector<const ByteRange*>& missing,
   if (!done && done.error().kind != Error::Kind::Cancelled)
   {
     changed_ = changed_ || (identity && identity->replaced);
+    if (changed_ && cache_)
+    {
+      cache_->note(kept_.withoutPromise()); // it was not kept: who opens the file again asks
+    }
     return done;
   }
   for (const WantedBytes& piece : pieces)

@@ -29,7 +29,8 @@ namespace pointfront
 /// Retries   passing refusals (429, 5xx), resets, stalls and short bodies, with growing pauses, as
 ///           long as the patience of a read allows (ReadPatience).
 /// Cache     what came is kept on the disk (FarCache), in blocks of 4 KiB. Opening asks the server
-///           nevertheless whether the file is still the same; offline, nothing is asked.
+///           nevertheless whether the file is still the same, unless the server has promised it
+///           (AnswerHeaders.h); offline, nothing is asked.
 /// Memory    head and tail, and 4 MiB of blocks.
 /// Fork      a child reads on, over connections of its own.
 /// Errors    those of ByteSource. Messages name the public form of the address alone.
@@ -69,6 +70,8 @@ private:
     std::unique_ptr<const Conversation> conversation, RemoteIdentity identity, Local local);
   static Result<std::shared_ptr<const RemoteSource>> openOffline(
     std::unique_ptr<const Conversation> conversation, Local local);
+  static std::shared_ptr<const RemoteSource> openAsKept(
+    std::unique_ptr<const Conversation> conversation, const FarIdentity& last, Local local);
   /// Asks the server for those ranges. `needed`: what a request should have of each.
   Result<void> ask(const std::vector<const ByteRange*>& missing,
     const std::vector<Interval64>& needed, const ReadStop& stop) const;

@@ -40,6 +40,14 @@ def wanted_range(header, size):
     return (begin, end) if begin < min(end, size) else False
 
 
+def asked_again(before, after):
+    """Bytes of later requests that earlier ones of the same file had, too."""
+    return sum(max(0, min(one["bytes"][1], other["bytes"][1])
+                   - max(one["bytes"][0], other["bytes"][0]))
+               for one in before for other in after
+               if one["path"].partition("?")[0] == other["path"].partition("?")[0])
+
+
 class Handler(Connection):
     """One connection."""
 
@@ -75,8 +83,8 @@ class Handler(Connection):
         inside = self.server.folder in path.parents
         key = (self.weather(), self.file_name())
         with self.server.lock:
-            self.server.requests.append({
-                "path": self.path, "range": self.headers.get("Range"),
+            self.server.requests.append(seen := {
+                "path": self.path, "bytes": (0, 0), "range": self.headers.get("Range"),
                 "host": self.headers.get("Host"), "agent": self.headers.get("User-Agent"),
                 "if_match": self.headers.get("If-Match"),
                 "encoding": self.headers.get("Accept-Encoding"),
@@ -94,6 +102,7 @@ class Handler(Connection):
             self.refuse(416, {"Content-Range": f"bytes */{len(data)}"})
             return
         begin, end = wanted or (0, len(data))
+        seen["bytes"] = (begin, end)
         if self.weather():
             getattr(Weather, self.weather())(self, data, begin, end, times)
         else:

@@ -114,6 +114,12 @@ class Weather:
         request.answer(changed, begin, end, tag=None, date=None)
 
     @staticmethod
+    def immutable(request, data, begin, end, times):
+        """The server promises that the file stays what it is."""
+        request.answer(data, begin, end, obey=True,
+                       more={"Cache-Control": "public, max-age=600, immutable"})
+
+    @staticmethod
     def weak(request, data, begin, end, times):
         """A weak entity tag, with which If-Match never matches."""
         request.answer(data, begin, end, tag='W/"1"', obey=True)

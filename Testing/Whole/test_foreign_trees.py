@@ -16,7 +16,7 @@ from tool import ToolTest
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
 
 # pylint: disable=wrong-import-position
-from far_server import FarServer
+from far_server import FarServer, asked_again
 
 HERE = "127.0.0.1"
 LEVELS, STEP = 7, 2  # 5,461 nodes in 4,369 pages
@@ -95,6 +95,19 @@ class ForeignTrees(ToolTest):
                 # Once it is there, the near view asks for the pages below four nodes.
                 self.assertLessEqual(asked, 5 * pages)
                 self.assertLessEqual(facts["requests"], 5 + 2 * asked)
+
+    def test_a_promised_tree_is_drawn_again_without_a_question(self):
+        self.environment = {**self.environment, "POINTFRONT_CACHE": str(self.folder / "cache")}
+        for cloud in (self.ept, self.copc):
+            with self.subTest(cloud.name):
+                address = (f"http://{HERE}:{self.server.port}/~immutable/"
+                           f"{cloud.relative_to(self.trees)}")
+                first, facts, _ = self.draw(address, "--camera", self.near)
+                self.assertGreater(facts["requests"], 2)
+                before = list(self.server.requests)
+                second, _, _ = self.draw(address, "--camera", self.near)
+                self.assertEqual(asked_again(before, self.server.requests), 0)
+                self.assertTrue((first == second).all())
 
     def test_a_far_view_reads_few_pages(self):
         near, _, _ = self.draw(self.one_page, "--camera", self.far)

@@ -172,6 +172,22 @@ TEST_F(FarCaching, TheLastStateIsKnownOffline)
   cache.note(identity);
   ASSERT_TRUE(cache.last(identity.place));
   EXPECT_EQ(cache.last(identity.place)->text(), identity.text());
+  EXPECT_EQ(cache.last(identity.place)->lastsUntil, 0);
+}
+
+TEST_F(FarCaching, APromiseIsKeptUntilItIsTakenBack)
+{
+  const FarCache cache(folder, std::uint64_t(1) << 30);
+  identity.lastsUntil = 4102444800;
+  cache.note(identity);
+  ASSERT_TRUE(cache.last(identity.place));
+  EXPECT_EQ(cache.last(identity.place)->text(), identity.text());
+  EXPECT_EQ(cache.last(identity.place)->lastsUntil, identity.lastsUntil);
+  keep(cache, 0, 8192);
+  identity.lastsUntil = 0; // the same bytes, whoever promised them
+  EXPECT_TRUE(has(cache, 0, 8192));
+  cache.note(identity.withoutPromise());
+  EXPECT_EQ(cache.last(identity.place)->lastsUntil, 0);
 }
 
 TEST_F(FarCaching, ThreadsThatBeginASegmentTogetherLoseNoBlock)

@@ -125,6 +125,13 @@ std::string FarIdentity::text() const
   return place + '\n' + std::to_string(bytes) + '\n' + tag + '\n' + date + '\n';
 }
 
+FarIdentity FarIdentity::withoutPromise() const
+{
+  FarIdentity same = *this;
+  same.lastsUntil = 0;
+  return same;
+}
+
 std::shared_ptr<const FarCache> FarCache::ofProcess()
 {
   const ForkHold hold;
@@ -249,6 +256,7 @@ void FarCache::note(const FarIdentity& identity) const
   {
     std::ofstream file(fresh, std::ios::binary);
     file << identity.text();
+    identity.lastsUntil > 0 ? file << identity.lastsUntil << '\n' : file;
     file.close();
     if (!file)
     {
@@ -277,7 +285,11 @@ std::optional<FarIdentity> FarCache::last(const std::string& place) const
   std::getline(lines, identity.tag);
   std::getline(lines, identity.date);
   identity.bytes = std::strtoull(bytes.c_str(), nullptr, 10);
-  const bool whole = identity.place == place && identity.text() == text && identity.tells();
+  std::string until;
+  std::getline(lines, until);
+  identity.lastsUntil = std::strtoll(until.c_str(), nullptr, 10);
+  const std::string expected = identity.text() + (until.empty() ? "" : until + '\n');
+  const bool whole = identity.place == place && expected == text && identity.tells();
   return whole ? std::optional<FarIdentity>(identity) : std::nullopt;
 }
 

@@ -20,10 +20,14 @@ struct FarIdentity
   std::uint64_t bytes = 0;
   std::string tag; ///< as its server names the state; a weak one ("W/...") says little
   std::string date; ///< when it changed last, as the server writes it
+  /// Until then its server promises this state, in seconds since 1970; 0: it promises nothing. No
+  /// part of the text.
+  std::int64_t lastsUntil = 0;
 
   /// Whether another state would have another identity.
   bool tells() const { return (!tag.empty() && tag.front() == '"') || !date.empty(); }
   std::string text() const; ///< all of it, a line each
+  FarIdentity withoutPromise() const;
 };
 
 /// A cache on this machine's disk: later programs need not ask servers for the same bytes again.

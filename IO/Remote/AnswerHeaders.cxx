@@ -1,0 +1,77 @@
+#include "AnswerHeaders.h"
+
+#include <algorithm>
+#include <cctype>
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <optional>
+#include <sstream>
+#include <string>
+
+namespace pointfront
+{
+namespace
+{
+constexpr std::chrono::milliseconds longestAskedPause{ 30000 };
+constexpr std::int64_t mostSeconds = std::int64_t(366) * 24 * 3600;
+
+std::string lowered(const std::string& text)
+{
+  std::string small;
+  for (const char letter : text)
+  {
+    if (letter != ' ' && letter != '\t')
+    {
+      small += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
+    }
+  }
+  return small;
+}
+
+std::optional<std::int64_t> secondsOf(std::string text)
+{
+  if (text.size() > 1 && text.front() == '"' && text.back() == '"')
+  {
+    text = text.substr(1, text.size() - 2);
+  }
+  std::int64_t seconds = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stopped, fault] = std::from_chars(text.data(), end, seconds);
+  const bool sound = fault == std::errc() && stopped == end && seconds >= 0;
+  return sound ? std::optional<std::int64_t>(seconds) : std::nullopt;
+}
+} // namespace
+
+std::chrono::milliseconds askedPause(const HttpAnswer& answer)
+{
+  const std::string text = answer.header("retry-after");
+  const long seconds = text.empty() ? 0 : std::strtol(text.c_str(), nullptr, 10);
+  return std::clamp(std::chrono::milliseconds(1000 * std::clamp(seconds, 0L, 3600L)),
+    std::chrono::milliseconds(0), longestAskedPause);
+}
+
+std::chrono::seconds unchangedFor(const HttpAnswer& answer)
+{
+  const std::string age = answer.header("age");
+  std::istringstream words(lowered(answer.header("cache-control")));
+  std::int64_t lasts = 0;
+  bool immutable = false;
+  for (std::string word; std::getline(words, word, ',');)
+  {
+    if (word == "no-store" || word.compare(0, 8, "no-cache") == 0)
+    {
+      return {};
+    }
+    immutable = immutable || word == "immutable";
+    if (word.compare(0, 8, "max-age=") == 0)
+    {
+      lasts = std::min(secondsOf(word.substr(8)).value_or(0), mostSeconds);
+    }
+  }
+  const std::optional<std::int64_t> passed = age.empty() ? 0 : secondsOf(lowered(age));
+  const bool promised = immutable && passed && *passed < lasts;
+  return std::chrono::seconds(promised ? lasts - *passed : 0);
+}
+
+} // namespace pointfront

@@ -46,7 +46,9 @@ class Rows(ToolTest):
             now = curve.complete(scene, store, view, case, False)
             with self.subTest(technique=technique, error_px=error_px):
                 self.assertEqual(now["points"], int(row["points"]))
-                self.assertEqual(now["bytes_read"], int(row["bytes_read"]))
+                # A busy machine may read nodes beside the view in advance.
+                self.assertGreaterEqual(now["bytes_read"], int(row["bytes_read"]))
+                self.assertLess(now["bytes_read"], 1.5 * int(row["bytes_read"]))
                 self.assertAlmostEqual(now["psnr"], float(row["psnr"]), delta=0.05)
                 for column in ("ssim", "off8", "holes", "bloat"):
                     self.assertAlmostEqual(now[column], float(row[column]), delta=0.002)

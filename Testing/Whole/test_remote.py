@@ -189,6 +189,11 @@ class Cache(RemoteTest):
                      "--stats", facts, *options, environment={**self.with_cache, **more})
         return read_png(picture), json.loads(facts.read_text())
 
+    def settled(self, cloud):
+        """Facts of the picture with the fewest requests, of three: a busy machine may ask for a
+        node that the picture turns out not to need, and then the cache has that, too."""
+        return min((self.draw(cloud)[1] for _ in range(3)), key=lambda facts: facts["requests"])
+
     def test_the_second_picture_asks_only_whether_the_file_changed(self):
         near, facts = self.draw(self.store)
         self.assertEqual((facts["requests"], facts["cache_hits"]), (0, 0))
@@ -197,11 +202,12 @@ class Cache(RemoteTest):
         self.assertGreater(facts["bytes_fetched"], 10000)
         fetched, before = facts["bytes_fetched"], list(self.server.requests)
         second, facts = self.draw(f"{self.address('')}?X-Amz-Signature=another")
-        # The head; and what no picture needed, which a busy machine asks for in advance.
         self.assertLessEqual(asked_again(before, self.server.requests[len(before):]), 4096)
         self.assertLess(facts["bytes_fetched"], fetched / 4)
         self.assertGreater(facts["cache_hits"], 0)
         self.assertGreater(facts["cache_bytes"], 10000)
+        facts = self.settled(f"{self.address('')}?X-Amz-Signature=another")
+        self.assertLessEqual(facts["requests"], 2, facts)  # head and tail, at once
         text = self.succeed("info", self.address(""), environment=self.with_cache).out
         self.assertRegex(text, r"\n  traffic .*, [1-9][0-9.]* [KM]iB from the cache")
         self.assertTrue((near == first).all() and (near == second).all())
@@ -215,6 +221,7 @@ class Cache(RemoteTest):
         self.assertEqual(asked_again(before, after), 0)
         self.assertEqual(facts["requests"], len(after))
         self.assertTrue((first == second).all())
+        self.assertEqual(self.settled(address)["requests"], 0)
         self.assertEqual(self.points(address, environment=self.with_cache), self.expected)
 
     def test_a_promise_that_is_not_kept_is_told_once(self):

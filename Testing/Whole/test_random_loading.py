@@ -41,6 +41,13 @@ FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
         "position": [400043.6426056663, 5600037.154958342, 59.05258312074294],
         "focal_point": [400039.86028327316, 5600035.324916195, 52.65274312074123],
         "view_up": [0, 0, 1], "view_angle": 45}, "error": "1", "growth": 0}),
+    # The mask of a lens has a size in metres.
+    (LoadingMeans, {"cloud": 37002, "style": {"lenses": [
+        {"around_class": 5, "radius": 1.0, "inside": {"default": {"color": "elevation"}}}]},
+        "camera": {
+            "position": [400023.1415385409, 5600018.244364642, 149.17278858599667],
+            "focal_point": [400022.64370498573, 5600018.115764761, 53.185988585995005],
+            "view_up": [0, 1, 0], "view_angle": 90}, "error": "0.01", "growth": 0}),
     # The trees of hidden classes are not loaded.
     (LoadingClouds, {"cloud": 5, "style": {"classes": {"2": {"visible": False}}}, "camera": {
         "position": [400037.03044364793, 5600028.989640989, 58.06921272895356],

@@ -58,6 +58,9 @@ const RefiningSplats refiningSplats[] = {
         {"default": {"technique": "spheres", "color": "classification"}}}],
       "highlight": [{"class": 6, "color": "#ffcc00"}]})",
     mostBlendedAgain, false },
+  { "around", R"({"default": {"technique": "splats", "color": "#40a040"}, "lenses": [
+      {"around_class": 5, "radius": 3, "inside": {"default": {"color": "#ff00ff"}}}]})",
+    mostDrawnAgain },
 };
 
 /// A store in which children take their parents' places.
@@ -101,6 +104,17 @@ double coveredOf(const Picture& complete, const Picture& other)
     covered += isLit(complete) && isLit(other) ? 1.0 : 0.0;
   }
   return covered / all;
+}
+
+/// Pixels in which red and blue are more than green.
+std::ptrdiff_t magentaOf(const Picture& picture)
+{
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 0; i < picture.rgb.size(); i += 3)
+  {
+    count += picture.rgb[i] > picture.rgb[i + 1] && picture.rgb[i + 2] > picture.rgb[i + 1];
+  }
+  return count;
 }
 
 /// The frames of a view until it was complete.
@@ -213,6 +227,23 @@ TEST(Refining, OfAKdTreeOfMeansDrawsNothingTwice)
     {
       expectRefined({ meansOfTown(Structure::KdTree) }, style, 0.0, style.most);
     }
+  }
+}
+
+/// The coarse nodes of a tree of means stand in for the points that make its mask, too.
+TEST(Refining, ALensAroundAClassIsThereInEachFrame)
+{
+  const Result<StyleSheet> sheet = parseStyleSheet(refiningSplats[6].json);
+  ASSERT_TRUE(sheet.ok()) << sheet.error().what;
+  LoadingClouds scene({ meansOfTown(Structure::Octree) }, *sheet);
+  const SeenFrames seen = refine(scene, false);
+  const auto complete = double(magentaOf(seen.pictures.back()));
+  EXPECT_GT(complete, 1000.0);
+  for (const Picture& picture : seen.pictures)
+  {
+    // The root's 27 means are a fifth of it.
+    EXPECT_GE(double(magentaOf(picture)), 0.15 * complete);
+    EXPECT_LE(double(magentaOf(picture)), 1.25 * complete);
   }
 }
 

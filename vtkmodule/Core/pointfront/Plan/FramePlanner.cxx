@@ -87,13 +87,21 @@ PlanItem itemOf(std::shared_ptr<const NodeColumns> node, const DetailGrowth::Sho
   return item;
 }
 
-bool allClose(const std::vector<LayerStyles>& layers)
+/// Whether coarser nodes stand in for points of this style: splats that close the surface, and the
+/// mask of a lens in trees where the nodes above are no part of the picture.
+bool hasStandIns(const ResolvedStyle& style, Refinement refinement)
+{
+  return style.size.mode == SplatSize::Mode::Spacing ||
+    (style.lensMask && refinement == Refinement::Replace);
+}
+
+bool allHaveStandIns(const std::vector<LayerStyles>& layers, Refinement refinement)
 {
   return std::all_of(layers.begin(), layers.end(),
-    [](const LayerStyles& styles)
+    [&](const LayerStyles& styles)
     {
       return std::all_of(styles.begin(), styles.end(),
-        [](const auto& style) { return style->size.mode == SplatSize::Mode::Spacing; });
+        [&](const auto& style) { return hasStandIns(*style, refinement); });
     });
 }
 
@@ -101,9 +109,10 @@ bool allClose(const std::vector<LayerStyles>& layers)
 const ExpectedNodes* expectedOf(const ViewFront& front, const PlanRequest& request)
 {
   const ExpectedNodes* const expected = front.expected();
-  // Where children take their parent's place, it stands in for them: splats that close the surface.
+  const Refinement refinement = front.refinement();
+  // Where children take their parent's place, it stands in for them.
   const bool usable = request.refines && !request.exchange && expected && expected->points() > 0 &&
-    (front.refinement() == Refinement::Add || allClose(request.styles));
+    (refinement == Refinement::Add || allHaveStandIns(request.styles, refinement));
   const FrontDelta& last = front.last();
   // Its nodes may all be there and still grow.
   const bool grows = request.growth && !request.growth->whole() && expected &&
@@ -269,9 +278,9 @@ std::vector<NodeElsewhere> nodesElsewhere(
   return nodes;
 }
 
-/// A batch for each style of each layer. Stand-ins are splats that close the surface.
+/// A batch for each style of each layer; stand-ins where a style has some.
 void addStyled(const std::vector<DrawBatch>& layers, const std::vector<LayerStyles>& styles,
-  const FramePlan& plan, std::vector<DrawBatch>& batches)
+  const FramePlan& plan, Refinement refinement, std::vector<DrawBatch>& batches)
 {
   const bool standIns = &batches == &plan.standIns;
   for (const DrawBatch& layer : layers)
@@ -281,7 +290,7 @@ void addStyled(const std::vector<DrawBatch>& layers, const std::vector<LayerStyl
     {
       DrawBatch batch{ layer.layer, style, layer.items, layer.level, number++ };
       keepWhatIsSeen(plan, batch);
-      const bool wanted = !standIns || style->size.mode == SplatSize::Mode::Spacing;
+      const bool wanted = !standIns || hasStandIns(*style, refinement);
       if (wanted && !batch.items.empty())
       {
         batches.push_back(std::move(batch));
@@ -341,8 +350,8 @@ FramePlan planFrame(
   std::vector<DrawBatch> layers = batchesOf(std::move(items.items));
   matchNeighbours(layers,
     nodesElsewhere(plan.refining ? expected->nodes() : front.drawnElsewhere(), request.styles));
-  addStyled(layers, request.styles, plan, plan.batches);
-  addStyled(items.standIns, request.styles, plan, plan.standIns);
+  addStyled(layers, request.styles, plan, front.refinement(), plan.batches);
+  addStyled(items.standIns, request.styles, plan, front.refinement(), plan.standIns);
   return plan;
 }
 

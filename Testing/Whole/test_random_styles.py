@@ -19,6 +19,10 @@ TOLERANCE = 2  # levels of 255
 STRONG_TOLERANCE = 8
 USUAL_STRENGTH = 0.4
 LEAST_ALIKE = 0.995  # a share of the pixels
+# The filler of holes makes up to 64 pixels of one: where rounding shows or hides one pixel, a block
+# of them differs. The picture without filled holes has to be more alike then.
+LEAST_ALIKE_FILLED = 0.985
+LEAST_ALIKE_UNFILLED = 0.999
 SIZE = (320, 240)
 # OpenGL draws no point whose centre lies outside the view; the software back end draws its part
 # inside. Half of the largest fixed size of a random style.
@@ -42,6 +46,8 @@ FOUND = (
 )
 # Seeds that once differed in their own views, and not in ACROSS.
 FOUND_SEEDS = (1366, 1680)
+# A seed whose picture differs by what the filler makes of a few pixels.
+FILLED_SEEDS = (740127,)
 
 
 def strongest(value):
@@ -52,6 +58,14 @@ def strongest(value):
         return 0.0
     return max((strongest(part) if key != "strength" else part for key, part in value.items()),
                default=0.0)
+
+
+def unfilled(style):
+    """Returns a style whose holes stay as they are; None where it fills none."""
+    shading = style.get("shading", {})
+    if not shading.get("fill_holes"):
+        return None
+    return {**style, "shading": {**shading, "fill_holes": False}}
 
 
 class RandomStyles(SceneTest):
@@ -83,19 +97,26 @@ class RandomStyles(SceneTest):
         tolerance = STRONG_TOLERANCE if strongest(style) > USUAL_STRENGTH else TOLERANCE
         return 1.0 if other is None else share_alike(mine, other, tolerance)
 
+    def agree(self, style, camera):
+        share = self.alike(style, camera)
+        bare = unfilled(style)
+        return share >= LEAST_ALIKE or (
+            share >= LEAST_ALIKE_FILLED and bare is not None and
+            self.alike(bare, camera) >= LEAST_ALIKE_UNFILLED)
+
     def test_styles_that_once_differed(self):
         for style in FOUND:
             with self.subTest(style=json.dumps(style)):
-                self.assertGreaterEqual(self.alike(style, ACROSS), LEAST_ALIKE)
+                self.assertTrue(self.agree(style, ACROSS))
 
     def test_both_back_ends_draw_random_styles_alike(self):
-        for seed in (*FOUND_SEEDS, *seeds()):
+        for seed in (*FOUND_SEEDS, *FILLED_SEEDS, *seeds()):
             style, view, camera = random_scene(seed, self.bounds, SIZE, seed not in FOUND_SEEDS)
             with self.subTest(seed=seed, view=view):
-                alike = self.alike(style, camera)
-                if alike >= LEAST_ALIKE:
+                if self.agree(style, camera):
                     continue
-                smallest = shrunk(style, lambda one: self.alike(one, camera) < LEAST_ALIKE)
+                alike = self.alike(style, camera)
+                smallest = shrunk(style, lambda one: not self.agree(one, camera))
                 found = (f"seed {seed}, {view}: {alike:.4f} of the pixels are alike; smallest: "
                          f"{json.dumps(smallest)} {json.dumps(camera)}")
                 print(found, flush=True)  # a night is long

@@ -1,5 +1,7 @@
 #include "ByteSize.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -46,12 +48,7 @@ std::optional<double> readByteSize(const std::string& text)
   {
     return std::nullopt;
   }
-  std::string unit = text.substr(end);
-  for (char& c : unit)
-  {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  const std::optional<double> factor = unitFactor(unit);
+  const std::optional<double> factor = unitFactor(lowered(text.substr(end)));
   return factor ? std::optional<double>(std::floor(std::strtod(text.c_str(), nullptr) * *factor))
                 : std::nullopt;
 }

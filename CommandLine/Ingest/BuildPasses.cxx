@@ -2,9 +2,9 @@
 
 #include "ChosenPasses.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
-#include <cctype>
-#include <filesystem>
 
 namespace pointfront
 {
@@ -44,9 +44,7 @@ std::vector<std::string> BuildPasses::inputsAmongImages(
   {
     const auto isPoints = [&pointExtensions](const std::string& word)
     {
-      std::string extension = std::filesystem::path(word).extension().string();
-      std::transform(extension.begin(), extension.end(), extension.begin(),
-        [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      const std::string extension = loweredExtension(word);
       return word.find('=') == std::string::npos && !extension.empty() &&
         std::find(pointExtensions.begin(), pointExtensions.end(), extension.substr(1)) !=
         pointExtensions.end();

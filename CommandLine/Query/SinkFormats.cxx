@@ -8,10 +8,10 @@
 #include "PLYWriter.h"
 #include "XYZWriter.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Export/EightBitColourSink.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -20,18 +20,10 @@ namespace pointfront
 
 namespace
 {
-std::string extensionOf(const std::string& path)
-{
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 std::string checkExtension(std::string& path)
 {
   const CLI::Validator check = knownWords({ ".las", ".laz", ".xyz", ".csv", ".ply", ".pcd" });
-  std::string extension = extensionOf(path);
+  std::string extension = loweredExtension(path);
   return check(extension);
 }
 } // namespace
@@ -40,7 +32,7 @@ namespace
 {
 std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& choice)
 {
-  const std::string extension = extensionOf(path);
+  const std::string extension = loweredExtension(path);
   if (extension == ".xyz" || extension == ".csv")
   {
     return std::make_unique<XYZWriter>(
@@ -92,7 +84,7 @@ Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkC
 bool isCOPCName(const std::string& path)
 {
   const std::filesystem::path name(path);
-  return extensionOf(path) == ".laz" && extensionOf(name.stem().string()) == ".copc";
+  return loweredExtension(path) == ".laz" && loweredExtension(name.stem().string()) == ".copc";
 }
 
 FileKind sinkKind(const std::string& path)
@@ -101,7 +93,7 @@ FileKind sinkKind(const std::string& path)
   {
     return FileKind::COPC;
   }
-  const std::string extension = extensionOf(path);
+  const std::string extension = loweredExtension(path);
   return extension == ".xyz" || extension == ".csv" ? FileKind::Text
     : extension == ".ply"                           ? FileKind::PLY
     : extension == ".pcd"                           ? FileKind::PCD

@@ -5,11 +5,11 @@
 #include "LAZGlance.h"
 #include "SourceFormats.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/InPlace/FirstLook.h"
 #include "pointfront/Tiles/TileFormat.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <string>
 #include <utility>
@@ -24,9 +24,7 @@ namespace
 /// and not read as text from end to end.
 bool hasEndingOfPoints(const std::string& path)
 {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = loweredExtension(path);
   const std::vector<std::string> known = SourceFormats().extensions();
   return !extension.empty() &&
     std::find(known.begin(), known.end(), extension.substr(1)) != known.end();

@@ -1,9 +1,9 @@
 #include "InputFiles.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <glob.h>
 #include <map>
@@ -17,17 +17,9 @@ namespace fs = std::filesystem;
 
 bool hasExtension(const fs::path& path, const std::vector<std::string>& extensions)
 {
-  std::string extension = path.extension().string();
-  if (extension.empty())
-  {
-    return false;
-  }
-  extension.erase(0, 1);
-  for (char& c : extension)
-  {
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  }
-  return std::find(extensions.begin(), extensions.end(), extension) != extensions.end();
+  const std::string extension = loweredExtension(path.string());
+  return !extension.empty() &&
+    std::find(extensions.begin(), extensions.end(), extension.substr(1)) != extensions.end();
 }
 
 /// Which files of a folder are meant when it is named.

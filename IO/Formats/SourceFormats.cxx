@@ -9,13 +9,13 @@
 #include "StoreInputFormat.h"
 #include "TextFormat.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -92,9 +92,7 @@ bool SourceFormats::mayHoldPoints(const std::string& path) const
 
 const PointSourceFormat* SourceFormats::named(const std::string& path) const
 {
-  std::string extension = std::filesystem::path(path).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = loweredExtension(path);
   for (const auto& format : formats_)
   {
     const std::vector<std::string> own = format->extensions();

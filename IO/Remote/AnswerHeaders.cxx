@@ -1,7 +1,8 @@
 #include "AnswerHeaders.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <cstdlib>
@@ -16,17 +17,13 @@ namespace
 constexpr std::chrono::milliseconds longestAskedPause{ 30000 };
 constexpr std::int64_t mostSeconds = std::int64_t(366) * 24 * 3600;
 
-std::string lowered(const std::string& text)
+/// Small letters without blanks.
+std::string plainWords(const std::string& text)
 {
-  std::string small;
-  for (const char letter : text)
-  {
-    if (letter != ' ' && letter != '\t')
-    {
-      small += static_cast<char>(std::tolower(static_cast<unsigned char>(letter)));
-    }
-  }
-  return small;
+  std::string plain = lowered(text);
+  const auto isBlank = [](char letter) { return letter == ' ' || letter == '\t'; };
+  plain.erase(std::remove_if(plain.begin(), plain.end(), isBlank), plain.end());
+  return plain;
 }
 
 std::optional<std::int64_t> secondsOf(std::string text)
@@ -54,7 +51,7 @@ std::chrono::milliseconds askedPause(const HttpAnswer& answer)
 std::chrono::seconds unchangedFor(const HttpAnswer& answer)
 {
   const std::string age = answer.header("age");
-  std::istringstream words(lowered(answer.header("cache-control")));
+  std::istringstream words(plainWords(answer.header("cache-control")));
   std::int64_t lasts = 0;
   bool immutable = false;
   for (std::string word; std::getline(words, word, ',');)
@@ -69,7 +66,7 @@ std::chrono::seconds unchangedFor(const HttpAnswer& answer)
       lasts = std::min(secondsOf(word.substr(8)).value_or(0), mostSeconds);
     }
   }
-  const std::optional<std::int64_t> passed = age.empty() ? 0 : secondsOf(lowered(age));
+  const std::optional<std::int64_t> passed = age.empty() ? 0 : secondsOf(plainWords(age));
   const bool promised = immutable && passed && *passed < lasts;
   return std::chrono::seconds(promised ? lasts - *passed : 0);
 }

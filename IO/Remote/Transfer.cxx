@@ -1,5 +1,6 @@
 #include "Transfer.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Threads/ForkHold.h"
 
 #include <algorithm>
@@ -160,10 +161,7 @@ std::size_t Transfer::takeHeader(std::string_view text)
   const std::size_t colon = text.find(':');
   if (colon != std::string_view::npos)
   {
-    std::string name(text.substr(0, colon));
-    std::transform(name.begin(), name.end(), name.begin(),
-      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    answer_->headers[name] = trimmed(text.substr(colon + 1));
+    answer_->headers[lowered(text.substr(0, colon))] = trimmed(text.substr(colon + 1));
   }
   return text.size();
 }

@@ -1,12 +1,12 @@
 #include "ItemCollection.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Points/QuantisationGrid.h"
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <utility>
 
@@ -21,18 +21,6 @@ constexpr std::uint64_t mostPoints = std::uint64_t(1) << 48; ///< so that sums o
 Error bad(const std::string& path, const std::string& what)
 {
   return makeError(Error::Kind::BadFormat, path + ": " + what);
-}
-
-std::string lowered(std::string text)
-{
-  std::transform(text.begin(), text.end(), text.begin(),
-    [](unsigned char letter) { return static_cast<char>(std::tolower(letter)); });
-  return text;
-}
-
-bool endsWith(const std::string& text, std::string_view end)
-{
-  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
 const Json* find(const Json& object, const char* key)
@@ -68,12 +56,13 @@ int likelihood(const std::string& key, const Json& asset)
   }
   const std::string name = lowered(fileNameOf(href));
   const std::string type = lowered(textOf(asset, "type"));
-  const bool inPlace = endsWith(name, ".copc.laz") || name == "ept.json" ||
-    endsWith(name, ".pfront") || endsWith(name, ".pfindex") ||
+  const bool inPlace = endsWithoutCase(name, ".copc.laz") || name == "ept.json" ||
+    endsWithoutCase(name, ".pfront") || endsWithoutCase(name, ".pfindex") ||
     type.find("copc") != std::string::npos;
-  const bool points = endsWith(name, ".laz") || endsWith(name, ".las");
+  const bool points = endsWithoutCase(name, ".laz") || endsWithoutCase(name, ".las");
   const bool data = hasRole(asset, "data") || key == "data" || key == "pointcloud";
-  const bool other = endsWith(name, ".json") || endsWith(name, ".tif") || endsWith(name, ".png");
+  const bool other = endsWithoutCase(name, ".json") || endsWithoutCase(name, ".tif") ||
+    endsWithoutCase(name, ".png");
   return inPlace ? 4 + (data ? 1 : 0) : points ? 2 + (data ? 1 : 0) : data && !other ? 1 : 0;
 }
 

@@ -2,6 +2,7 @@
 
 #include "ItemCollection.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Tiles/ListedCloud.h"
@@ -21,11 +22,9 @@ constexpr std::size_t beginningBytes = std::size_t(64) << 10;
 
 bool isNamedVPC(const std::string& path)
 {
+  constexpr std::string_view end = ".vpc";
   const std::string name = fileNameOf(path);
-  const std::string end = ".vpc";
-  return name.size() > end.size() &&
-    std::equal(end.rbegin(), end.rend(), name.rbegin(),
-      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
+  return name.size() > end.size() && endsWithoutCase(name, end);
 }
 } // namespace
 

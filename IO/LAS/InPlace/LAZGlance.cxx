@@ -5,6 +5,7 @@
 #include "LAZChunkTable.h"
 #include "LAZCompression.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/Ingest/ReferenceSystem.h"
@@ -13,7 +14,6 @@
 #include "pointfront/Threads/ThreadCrew.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <optional>
 #include <utility>
@@ -191,14 +191,6 @@ Result<PointSources> glanceAtAll(
   return sources;
 }
 
-std::string extensionOf(const fs::path& path)
-{
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return extension;
-}
-
 Result<std::vector<std::string>> lasFilesBelow(const std::string& folder)
 {
   std::vector<std::string> files;
@@ -207,7 +199,7 @@ Result<std::vector<std::string>> lasFilesBelow(const std::string& folder)
   for (; !failure && entry != fs::recursive_directory_iterator(); entry.increment(failure))
   {
     std::error_code vanished;
-    const std::string extension = extensionOf(entry->path());
+    const std::string extension = loweredExtension(entry->path().string());
     if ((extension == ".las" || extension == ".laz") && entry->is_regular_file(vanished))
     {
       files.push_back(entry->path().string());

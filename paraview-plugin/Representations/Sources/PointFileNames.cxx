@@ -2,8 +2,9 @@
 
 #include "SourceFormats.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
-#include <cctype>
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
@@ -17,9 +18,7 @@ namespace
 
 std::string extensionOf(const std::string& name)
 {
-  std::string extension = std::filesystem::path(name).extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  const std::string extension = pointfront::loweredExtension(name);
   return extension.empty() ? extension : extension.substr(1);
 }
 

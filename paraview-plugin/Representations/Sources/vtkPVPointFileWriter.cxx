@@ -3,6 +3,7 @@
 #include "LASWriter.h"
 #include "PointSetSource.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Export/SourceExport.h"
 #include "pointfront/Export/SourceSurvey.h"
@@ -12,9 +13,6 @@
 #include "vtkObjectFactory.h"
 #include "vtkPointSet.h"
 
-#include <algorithm>
-#include <cctype>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,14 +21,6 @@ vtkStandardNewMacro(vtkPVPointFileWriter);
 
 namespace
 {
-
-std::string endingOf(const std::string& path)
-{
-  std::string ending = std::filesystem::path(path).extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return ending;
-}
 
 } // namespace
 
@@ -64,7 +54,7 @@ void vtkPVPointFileWriter::Fail(const std::string& why, bool cancelled)
 void vtkPVPointFileWriter::WriteData()
 {
   const std::string path = this->FileName ? this->FileName : "";
-  const std::string ending = endingOf(path);
+  const std::string ending = pointfront::loweredExtension(path);
   if (ending != ".las" && ending != ".laz")
   {
     this->Fail("\"" + path + "\" is no name of a LAS or LAZ file: it ends in .las or .laz");

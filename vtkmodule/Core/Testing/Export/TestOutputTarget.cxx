@@ -45,6 +45,15 @@ TEST_F(OutputTargetTest, ANewNameAndAFileOfNoBytesAreFree)
   EXPECT_EQ(refusal({ empty, FileKind::LAS, true }), "");
 }
 
+TEST_F(OutputTargetTest, ANameSaysItsKindInLargeLettersToo)
+{
+  const auto named = [&](const char* name) { return (folder / name).string(); };
+  EXPECT_NE(refusal({ named("B.LAS"), FileKind::Store }).find("is named as"), std::string::npos);
+  EXPECT_NE(refusal({ named("B.Copc.Laz"), FileKind::LAS }).find("as COPC"), std::string::npos);
+  EXPECT_EQ(refusal({ named("B.COPC.LAZ"), FileKind::COPC }), "");
+  EXPECT_EQ(refusal({ named("B.PFRONT"), FileKind::Store }), "");
+}
+
 TEST_F(OutputTargetTest, EveryKindIsReplacedByItselfOnly)
 {
   using namespace std::string_literals;

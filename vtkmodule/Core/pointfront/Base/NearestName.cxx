@@ -1,7 +1,8 @@
 #include "pointfront/Base/NearestName.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
-#include <cctype>
 
 namespace pointfront
 {
@@ -11,9 +12,8 @@ namespace
 /// The word as it is compared: "--Color_By" is "--color-by".
 std::string plain(const std::string& word)
 {
-  std::string result = word;
-  std::transform(result.begin(), result.end(), result.begin(),
-    [](unsigned char c) { return c == '_' ? '-' : static_cast<char>(std::tolower(c)); });
+  std::string result = lowered(word);
+  std::replace(result.begin(), result.end(), '_', '-');
   return result;
 }
 } // namespace

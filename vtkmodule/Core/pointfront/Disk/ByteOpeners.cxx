@@ -1,5 +1,6 @@
 #include "pointfront/Disk/ByteOpeners.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/Epoch.h"
 #include "pointfront/Threads/ForkHold.h"
 
@@ -55,7 +56,7 @@ std::string schemeOf(std::string_view path)
   {
     return {};
   }
-  std::string scheme(path.substr(0, end));
+  const std::string_view scheme = path.substr(0, end);
   const bool sound = std::isalpha(static_cast<unsigned char>(scheme.front())) != 0 &&
     std::all_of(scheme.begin(), scheme.end(),
       [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
@@ -63,9 +64,7 @@ std::string schemeOf(std::string_view path)
   {
     return {};
   }
-  std::transform(scheme.begin(), scheme.end(), scheme.begin(),
-    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  return scheme;
+  return lowered(scheme);
 }
 
 std::string publicForm(const std::string& path)

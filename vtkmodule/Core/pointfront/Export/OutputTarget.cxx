@@ -1,5 +1,6 @@
 #include "pointfront/Export/OutputTarget.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/SmallFile.h"
 #include "pointfront/InPlace/SideFile.h"
 #include "pointfront/Store/PointStore.h"
@@ -114,11 +115,6 @@ Error refusal(const OutputTarget& target, const std::string& why)
   return makeError(Error::Kind::BadArgument, target.path + ": " + why);
 }
 
-bool endsWith(std::string_view text, std::string_view end)
-{
-  return text.size() >= end.size() && text.substr(text.size() - end.size()) == end;
-}
-
 /// The kind that all see in a file of that name; Other: the name says nothing.
 FileKind kindOfName(const std::string& path)
 {
@@ -134,7 +130,7 @@ FileKind kindOfName(const std::string& path)
     { ".pfcollection", FileKind::Collection } };
   for (const Ending& ending : endings)
   {
-    if (endsWith(path, ending.text))
+    if (endsWithoutCase(path, ending.text))
     {
       return ending.kind;
     }
@@ -145,7 +141,7 @@ FileKind kindOfName(const std::string& path)
 /// A name tells programs what to read a file as.
 Result<void> checkName(const OutputTarget& target)
 {
-  const bool copc = endsWith(target.path, ".copc.laz");
+  const bool copc = endsWithoutCase(target.path, ".copc.laz");
   if (target.kind == FileKind::LAS && copc)
   {
     return refusal(target, "is named as COPC, which is not written here; leave out '.copc'");

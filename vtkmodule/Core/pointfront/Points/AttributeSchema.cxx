@@ -1,20 +1,11 @@
 #include "pointfront/Points/AttributeSchema.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
-#include <cctype>
 
 namespace pointfront
 {
-namespace
-{
-bool sameWithoutCase(std::string_view a, std::string_view b)
-{
-  return a.size() == b.size() &&
-    std::equal(a.begin(), a.end(), b.begin(),
-      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
-} // namespace
-
 bool AttributeSchema::add(Attribute attribute)
 {
   const bool taken = std::any_of(attributes_.begin(), attributes_.end(),

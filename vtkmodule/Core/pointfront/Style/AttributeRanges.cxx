@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Infinity.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Statistics/StoreSample.h"
 #include "pointfront/Style/ComponentName.h"
 

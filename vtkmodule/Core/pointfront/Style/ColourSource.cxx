@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Infinity.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ComponentName.h"
 #include "pointfront/Style/StandardColours.h"

@@ -1,8 +1,9 @@
 #include "pointfront/Style/ComponentName.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 
 namespace pointfront
@@ -36,7 +37,7 @@ std::optional<SplitName> splitLetter(std::string_view name)
   {
     return std::nullopt;
   }
-  const auto letter = static_cast<char>(std::tolower(static_cast<unsigned char>(name.back())));
+  const char letter = lowered(name.substr(name.size() - 1)).front();
   for (const std::string_view letters : { std::string_view("xyzw"), std::string_view("rgba") })
   {
     const std::size_t place = letters.find(letter);
@@ -79,13 +80,6 @@ std::string withUnderscores(std::string_view name)
   std::string result(name);
   std::replace(result.begin(), result.end(), '-', '_');
   return result;
-}
-
-bool sameWithoutCase(std::string_view a, std::string_view b)
-{
-  return a.size() == b.size() &&
-    std::equal(a.begin(), a.end(), b.begin(),
-      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 } // namespace pointfront

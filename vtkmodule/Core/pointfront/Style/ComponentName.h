@@ -26,7 +26,5 @@ std::optional<AttributeComponent> findComponent(
 
 /// The name with "_" for "-".
 std::string withUnderscores(std::string_view name);
-/// Without regard to the case of ASCII letters.
-bool sameWithoutCase(std::string_view a, std::string_view b);
 
 } // namespace pointfront

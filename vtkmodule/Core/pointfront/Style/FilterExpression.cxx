@@ -1,5 +1,6 @@
 #include "pointfront/Style/FilterExpression.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ComponentName.h"
 

@@ -1,12 +1,12 @@
 #include "pointfront/Style/PointColouring.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Style/ClassHeights.h"
 
 #include <algorithm>
 #include <array>
 #include <cassert>
-#include <cctype>
 #include <cmath>
 #include <cstring>
 #include <iterator>
@@ -19,13 +19,6 @@ namespace
 
 /// Longest table of one entry for each integer; longer ones are sampled.
 constexpr std::int64_t mostIntegers = 8192;
-
-bool sameName(const std::string& a, const char* b)
-{
-  return a.size() == std::strlen(b) &&
-    std::equal(a.begin(), a.end(), b,
-      [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
-}
 
 bool isInteger(ScalarType type)
 {
@@ -69,7 +62,7 @@ bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
     return false;
   }
   return mode == ColourRequest::Mode::Direct || attribute.type == ScalarType::UInt8 ||
-    (sameName(attribute.name, "rgb") && attribute.type == ScalarType::UInt16);
+    (sameWithoutCase(attribute.name, "rgb") && attribute.type == ScalarType::UInt16);
 }
 
 } // namespace
@@ -91,7 +84,7 @@ ColourScale::ColourScale(const Attribute& attribute, bool wide, const std::array
 
 bool PointColouring::wantsHeights(const StoreDescription& description, const ColourRequest& request)
 {
-  return sameName(request.name, "global_height") && !description.schema.find(request.name);
+  return sameWithoutCase(request.name, "global_height") && !description.schema.find(request.name);
 }
 
 /// An attribute that the store has not, made of what it has.
@@ -99,7 +92,7 @@ std::optional<PointColouring> PointColouring::derived(const StoreDescription& de
   const ColourRequest& request, std::shared_ptr<const ClassHeights> heights)
 {
   PointColouring colouring;
-  if (sameName(request.name, "elevation"))
+  if (sameWithoutCase(request.name, "elevation"))
   {
     colouring.kind = Kind::Elevation;
     return colouring;
@@ -111,7 +104,7 @@ std::optional<PointColouring> PointColouring::derived(const StoreDescription& de
     return colouring;
   }
   const auto normal = description.schema.find("normal");
-  if (sameName(request.name, "horizontality") && normal &&
+  if (sameWithoutCase(request.name, "horizontality") && normal &&
     description.schema[*normal].components == 3)
   {
     colouring.column = static_cast<std::uint32_t>(*normal);

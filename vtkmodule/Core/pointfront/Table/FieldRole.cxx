@@ -1,8 +1,9 @@
 #include "pointfront/Table/FieldRole.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace pointfront
 {
@@ -12,11 +13,11 @@ namespace
 std::string folded(std::string_view name)
 {
   std::string text;
-  for (const char c : name)
+  for (const char c : lowered(name))
   {
     if (c != ' ' && c != '_' && c != '-' && c != '"' && c != '\'')
     {
-      text += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+      text += c;
     }
   }
   constexpr std::string_view scalar = "scalar";

@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TileFormat.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Store/PointStore.h"
@@ -21,13 +22,6 @@ namespace fs = std::filesystem;
 
 constexpr const char* listExtension = ".pfronts";
 constexpr std::uintmax_t mostListBytes = 64u << 20; ///< a million long names
-
-bool endsWith(const std::string& text, std::string_view end)
-{
-  return text.size() >= end.size() &&
-    std::equal(end.rbegin(), end.rend(), text.rbegin(),
-      [](char a, char b) { return a == std::tolower(static_cast<unsigned char>(b)); });
-}
 
 std::string_view trimmed(std::string_view line)
 {
@@ -128,7 +122,7 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
     }
     for (const std::string& each : found)
     {
-      if (endsWith(fileNameOf(each), listExtension))
+      if (endsWithoutCase(fileNameOf(each), listExtension))
       {
         return makeError(
           Error::Kind::BadFormat, path + ": names '" + each + "', a list; a list names stores");
@@ -155,18 +149,18 @@ Result<TileFolder> TileFolder::of(const std::string& folder)
     {
       continue;
     }
-    if (endsWith(path, ".pfront"))
+    if (endsWithoutCase(path, ".pfront"))
     {
-      if (!endsWith(path, ".preview.pfront") || !PointStore::looksLikePreview(path))
+      if (!endsWithoutCase(path, ".preview.pfront") || !PointStore::looksLikePreview(path))
       {
         stores.push_back(path);
       }
     }
-    else if (endsWith(path, ".pfindex"))
+    else if (endsWithoutCase(path, ".pfindex"))
     {
       indices.push_back(path);
     }
-    else if (endsWith(path, ".copc.laz"))
+    else if (endsWithoutCase(path, ".copc.laz"))
     {
       octrees.push_back(path);
     }
@@ -204,7 +198,7 @@ Result<TileFolder> TileFolder::of(const std::string& folder)
 bool TileFormat::accepts(const std::string& path) const
 {
   std::error_code failure;
-  if (endsWith(fileNameOf(path), listExtension))
+  if (endsWithoutCase(fileNameOf(path), listExtension))
   {
     return isAddress(path) || fs::is_regular_file(path, failure);
   }
@@ -218,7 +212,7 @@ bool TileFormat::accepts(const std::string& path) const
 
 Result<std::shared_ptr<const StoredCloud>> TileFormat::open(const std::string& path) const
 {
-  if (endsWith(fileNameOf(path), listExtension))
+  if (endsWithoutCase(fileNameOf(path), listExtension))
   {
     const Result<std::vector<std::string>> files = readTileList(path);
     return files ? TiledCloud::open(path, *files) : files.error();

@@ -1,0 +1,30 @@
+#include "pointfront/Base/LetterCase.h"
+
+#include <gtest/gtest.h>
+
+using namespace pointfront;
+
+TEST(LetterCase, LettersBecomeSmallAndNothingElseChanges)
+{
+  EXPECT_EQ(lowered("Intensity_ID [0]"), "intensity_id [0]");
+  EXPECT_EQ(lowered(""), "");
+  EXPECT_EQ(lowered("@[`{"), "@[`{") << "beside A, Z, a and z";
+  EXPECT_EQ(lowered("\xC3\x9C.LAZ"), "\xC3\x9C.laz") << "bytes of other letters stay";
+}
+
+TEST(LetterCase, NamesAreComparedWithoutIt)
+{
+  EXPECT_TRUE(sameWithoutCase("INTENSITY", "intensity"));
+  EXPECT_FALSE(sameWithoutCase("intensity", "intensit"));
+  EXPECT_FALSE(sameWithoutCase("a@b", "a`b"));
+  EXPECT_TRUE(endsWithoutCase("a/Tile.COPC.Laz", ".copc.laz"));
+  EXPECT_TRUE(endsWithoutCase(".laz", ".laz"));
+  EXPECT_FALSE(endsWithoutCase("laz", ".laz"));
+}
+
+TEST(LetterCase, AnExtensionIsThatOfTheFileItself)
+{
+  EXPECT_EQ(loweredExtension("a.b/C.LAZ"), ".laz");
+  EXPECT_EQ(loweredExtension("a.b/c"), "");
+  EXPECT_EQ(loweredExtension(""), "");
+}

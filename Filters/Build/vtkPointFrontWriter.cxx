@@ -11,6 +11,8 @@
 #include <vtkObjectFactory.h>
 #include <vtkPointSet.h>
 
+#include <string>
+
 vtkStandardNewMacro(vtkPointFrontWriter);
 
 namespace
@@ -25,6 +27,24 @@ void handOn(vtkObject* caller, unsigned long, void* writerOf, void* fraction)
   if (writer->GetAbortExecute())
   {
     builder->AbortExecuteOn();
+  }
+}
+
+/// What the builder says is said by the writer, to those who observe the writer.
+void sayAgain(vtkObject*, unsigned long event, void* writerOf, void* text)
+{
+  auto* writer = static_cast<vtkPointFrontWriter*>(writerOf);
+  std::string message = text ? static_cast<const char*>(text) : "";
+  const std::size_t named = message.find("): "); // behind file, line and the builder's name
+  message.erase(0, named == std::string::npos ? 0 : named + 3);
+  message.erase(message.find_last_not_of('\n') + 1);
+  if (event == vtkCommand::ErrorEvent)
+  {
+    vtkErrorWithObjectMacro(writer, << message);
+  }
+  else
+  {
+    vtkWarningWithObjectMacro(writer, << message);
   }
 }
 
@@ -45,11 +65,22 @@ int vtkPointFrontWriter::FillInputPortInformation(int, vtkInformation* info)
 
 void vtkPointFrontWriter::WriteData()
 {
+  if (!this->FileName || !*this->FileName)
+  {
+    vtkErrorMacro("no file name: call SetFileName() first");
+    this->SetErrorCode(vtkErrorCode::NoFileNameError);
+    return;
+  }
+  vtkNew<vtkCallbackCommand> messages;
+  messages->SetCallback(sayAgain);
+  messages->SetClientData(this);
   vtkNew<vtkCallbackCommand> progress;
   progress->SetCallback(handOn);
   progress->SetClientData(this);
   vtkNew<vtkPointFrontBuilder> builder;
   builder->AddObserver(vtkCommand::ProgressEvent, progress);
+  builder->AddObserver(vtkCommand::ErrorEvent, messages);
+  builder->AddObserver(vtkCommand::WarningEvent, messages);
   builder->SetPoints(vtkPointSet::SafeDownCast(this->GetInput()));
   builder->SetOutputFileName(this->FileName);
   builder->OverwriteOn();

@@ -152,6 +152,11 @@ Result<QueryReport> vtkPointFrontExtract::Content::Run(
   const pointfront::StoredCloud& store = *this->Store->GetStore();
   pointfront::InterpreterPause pause;
   const pointfront::QueryOptions options = Options(filter, pause);
+  const auto cancelled = pointfront::makeError(Error::Kind::Cancelled, "stopped");
+  if (!options.progress({ "reading" })) // a short query ends before the first report is due
+  {
+    return cancelled;
+  }
   const auto fetch = [&](const pointfront::StoreDescription& description,
                        const auto& run) -> Result<QueryReport>
   {
@@ -159,6 +164,10 @@ Result<QueryReport> vtkPointFrontExtract::Content::Run(
       description, static_cast<std::uint64_t>(filter.MaximumNumberOfPoints), filter.ColorsAsStored);
     Result<QueryReport> report = run([&](const pointfront::QueryBatch& batch)
       { return filter.CountOnly ? Result<void>() : points.add(batch); });
+    if (report && pointfront::isAborted(filter))
+    {
+      return cancelled;
+    }
     report ? points.moveTo(output, filter.VertexCells) : void();
     return report;
   };
@@ -333,7 +342,8 @@ int vtkPointFrontExtract::RequestInformation(
 {
   vtkInformation* const output = outputs->GetInformationObject(0);
   output->Set(vtkAlgorithm::CAN_HANDLE_PIECE_REQUEST(), 1);
-  if (!this->FileName && this->GetNumberOfInputConnections(0) > 0)
+  const bool named = this->FileName && *this->FileName;
+  if (!named && this->GetNumberOfInputConnections(0) > 0)
   {
     return 1; // which store it is stands in the data
   }
@@ -356,7 +366,7 @@ int vtkPointFrontExtract::RequestInformation(
 int vtkPointFrontExtract::RequestData(
   vtkInformation*, vtkInformationVector** inputs, vtkInformationVector* outputs)
 {
-  if (!this->FileName)
+  if (!this->FileName || !*this->FileName)
   {
     vtkDataObject* const input = vtkDataObject::GetData(inputs[0], 0);
     const vtkStdString name = input ? vtkPointFrontStore::GetStoreName(input) : vtkStdString();

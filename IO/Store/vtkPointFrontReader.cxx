@@ -347,6 +347,11 @@ bool vtkPointFrontReader::ReadPoints(
     vtkErrorMacro("no store is open: call UpdateInformation() first");
     return false;
   }
+  if (!ids)
+  {
+    vtkErrorMacro("no array of ids was given");
+    return false;
+  }
   const vtkIdType* values = ids->GetPointer(0);
   std::vector<std::uint64_t> wanted(values, values + ids->GetNumberOfValues()); // -1: far beyond
   const pointfront::Hierarchy& hierarchy = *this->Store->GetStore()->hierarchy();
@@ -384,6 +389,13 @@ bool vtkPointFrontReader::ReadRegion(const std::function<bool(const double bound
 
 bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData* output)
 {
+  if (!output || piece < 0 || piece >= pieces)
+  {
+    vtkErrorMacro(<< (output ? "piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
+                          " does not exist: pieces count from 0"
+                             : std::string("no output was given for the points")));
+    return false;
+  }
   if (!found.points)
   {
     vtkErrorMacro(<< found.points.error().what);

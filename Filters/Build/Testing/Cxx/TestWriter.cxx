@@ -1,3 +1,5 @@
+#include "ErrorObserver.h"
+
 #include "pointfront/Store/PointStore.h"
 #include "vtkPointFrontWriter.h"
 
@@ -124,6 +126,23 @@ TEST_F(Writer, SaysWhatItCannotWrite)
   writer->Write();
   vtkObject::GlobalWarningDisplayOn();
   EXPECT_EQ(writer->GetErrorCode(), vtkErrorCode::CannotOpenFileError);
+}
+
+TEST_F(Writer, TellsThoseWhoObserveIt)
+{
+  vtkNew<vtkPointFrontWriter> writer;
+  writer->SetInputData(data);
+  vtkNew<ErrorObserver> errors;
+  writer->AddObserver(vtkCommand::ErrorEvent, errors);
+  writer->Write();
+  EXPECT_NE(errors->GetErrorMessage().find("no file name"), std::string::npos);
+  EXPECT_EQ(writer->GetErrorCode(), unsigned(vtkErrorCode::NoFileNameError));
+  errors->Clear();
+  writer->SetFileName((folder / "nowhere" / "a.pfront").c_str());
+  writer->Write();
+  const std::string said = errors->GetErrorMessage();
+  EXPECT_NE(said.find("nowhere"), std::string::npos) << said;
+  EXPECT_EQ(said.find("vtkPointFrontBuilder"), std::string::npos) << said;
 }
 
 TEST_F(Writer, DoesNotReplaceAFileOfAnotherKind)

@@ -262,6 +262,29 @@ TEST(Reader, ReadingPointsByIdCanBeAborted)
   EXPECT_GT(points->GetNumberOfPoints(), 10000);
 }
 
+TEST(Reader, ReadingPointsByIdRefusesWhatIsNothing)
+{
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(storeOf("no_ids", 100).c_str());
+  reader->UpdateInformation();
+  vtkNew<vtkIdTypeArray> named;
+  named->InsertNextValue(1);
+  vtkNew<vtkPolyData> points;
+  vtkNew<ErrorObserver> errors;
+  reader->AddObserver(vtkCommand::ErrorEvent, errors);
+  const auto refused = [&](vtkIdTypeArray* ids, int piece, int pieces, vtkPolyData* output)
+  {
+    errors->Clear();
+    return !reader->ReadPoints(ids, piece, pieces, output) && errors->GetError();
+  };
+  EXPECT_TRUE(refused(nullptr, 0, 1, points));
+  EXPECT_TRUE(refused(named, 0, 1, nullptr));
+  EXPECT_TRUE(refused(named, 0, 0, points));
+  EXPECT_TRUE(refused(named, 2, 2, points));
+  EXPECT_TRUE(refused(named, -1, 2, points));
+  EXPECT_TRUE(reader->ReadPoints(named, 0, 1, points));
+}
+
 TEST(Reader, TheSelectionChoosesTheArraysAndIsPartOfTheTime)
 {
   vtkNew<vtkPointFrontReader> reader;

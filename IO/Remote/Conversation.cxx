@@ -88,6 +88,14 @@ Error Conversation::changed(std::optional<RemoteIdentity>& identity) const
     Error::Kind::Unreadable, "has changed on its server while it was open; open it again");
 }
 
+Error Conversation::withoutParts() const
+{
+  return failed(Error::Kind::Unreadable,
+    "is larger than " + std::to_string(options_.wholeAtMost >> 20) +
+      " MiB and its server gives no parts of files (ranges); download it, or serve it with "
+      "a server that does");
+}
+
 Error Conversation::refused(long status) const
 {
   const std::string answer = "the server answers " + std::to_string(status);
@@ -230,6 +238,27 @@ Result<Conversation::Verdict> Conversation::takeWhole(
   return Verdict::Good;
 }
 
+/// A server may give parts, and the whole file for a part that counts from the end: its size says
+/// where that is.
+Result<Conversation::Verdict> Conversation::countFromFront(
+  const HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const
+{
+  const std::string length = answer.header("content-length");
+  if (length.empty())
+  {
+    return withoutParts();
+  }
+  const std::uint64_t total = std::strtoull(length.c_str(), nullptr, 10);
+  if (Result<void> same = compare(answer, total, identity); !same)
+  {
+    return same.error();
+  }
+  wanted.tail = false;
+  wanted.size = std::min(wanted.size, total);
+  wanted.offset = total - wanted.size;
+  return Verdict::Redirected;
+}
+
 Result<Conversation::Verdict> Conversation::redirect(const HttpAnswer& answer) const
 {
   Redirection& known = redirection();
@@ -257,12 +286,13 @@ Result<Conversation::Verdict> Conversation::judge(
   switch (answer.outcome)
   {
     case Outcome::TooMuch:
-      return failed(Error::Kind::Unreadable,
-        answer.status == 200
-          ? "is larger than " + std::to_string(options_.wholeAtMost >> 20) +
-            " MiB and its server gives no parts of files (ranges); download it, or serve it with "
-            "a server that does"
-          : std::string("is served wrongly: more bytes come than were asked for"));
+      if (answer.status == 200)
+      {
+        return wanted.tail && wanted.bytes.empty() ? countFromFront(answer, wanted, identity)
+                                                   : withoutParts();
+      }
+      return failed(
+        Error::Kind::Unreadable, "is served wrongly: more bytes come than were asked for");
     case Outcome::NoConnection:
       if (answer.final)
       {
@@ -287,9 +317,14 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   {
     return takePart(answer, wanted, identity);
   }
-  if (answer.status == 200 && !identity)
+  const bool fromEnd = wanted.tail && wanted.bytes.empty();
+  if (answer.status == 200 && (!identity || (fromEnd && !answer.body.empty())))
   {
     return takeWhole(answer, wanted, identity);
+  }
+  if (answer.status == 200 && fromEnd)
+  {
+    return countFromFront(answer, wanted, identity);
   }
   if (isRedirection(answer.status))
   {

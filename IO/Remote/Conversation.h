@@ -99,12 +99,15 @@ private:
     HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
   Result<Verdict> takeWhole(
     HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
+  Result<Verdict> countFromFront(
+    const HttpAnswer& answer, WantedBytes& wanted, std::optional<RemoteIdentity>& identity) const;
   Result<void> compare(
     const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const;
   Result<Verdict> redirect(const HttpAnswer& answer) const;
   Redirection& redirection() const;
   Error changed(std::optional<RemoteIdentity>& identity) const;
   Error refused(long status) const;
+  Error withoutParts() const;
   Error failed(Error::Kind kind, const std::string& what) const;
 
   const std::string name_;

@@ -63,6 +63,7 @@ public:
 
   std::atomic<bool> silent{ false }; ///< takes requests and answers none
   std::atomic<bool> refuses{ false }; ///< 503
+  std::atomic<bool> countsFromFront{ false }; ///< 200 and the whole file for its last bytes
   std::atomic<unsigned> state{ 1 }; ///< another number is another file of the same length
   std::atomic<unsigned> requests{ 0 };
   std::atomic<unsigned> left{ 0 }; ///< connections that the client has closed
@@ -112,6 +113,11 @@ private:
     const std::size_t at = request.find("Range: bytes=");
     if (std::sscanf(request.c_str() + at, "Range: bytes=-%zu", &last) == 1)
     {
+      if (countsFromFront)
+      {
+        return "HTTP/1.1 200 all\r\nETag: \"" + std::to_string(state) +
+          "\"\r\nContent-Length: " + std::to_string(file_.size()) + "\r\n\r\n" + file_;
+      }
       first = file_.size() - std::min(last, file_.size());
       last = file_.size() - 1;
     }

@@ -112,6 +112,32 @@ TEST(RemoteSource, EndsThatAreHeldAreNotAskedForAgain)
   EXPECT_LE(read(0, 100000), 100000u - 8192u - 10000u + 4096u); // 100000 before
 }
 
+/// A server need not know ranges that count from the end. It gives the whole file, which may be
+/// more than is taken.
+TEST(RemoteSource, TheEndOfAFileCanBeCountedFromItsFront)
+{
+  const std::string file = words(1 << 20);
+  for (const std::uint64_t whole : { std::uint64_t(64) << 20, std::uint64_t(1) << 16 })
+  {
+    SmallServer server(file);
+    server.countsFromFront = true;
+    RemoteOptions options;
+    options.wholeAtMost = whole;
+    const RemoteOpener opener(options);
+    for (const std::size_t head : { std::size_t(4096), std::size_t(0) })
+    {
+      const auto source = opener.open(server.address(std::to_string(head)), { head, 10000 });
+      ASSERT_TRUE(source) << source.error().what;
+      for (const std::size_t offset : { file.size() - 9000, std::size_t(500000) })
+      {
+        const Result<RawBytes> bytes = (*source)->readAt(offset, 9000);
+        ASSERT_TRUE(bytes) << bytes.error().what;
+        EXPECT_EQ(std::memcmp(bytes->data.get(), file.data() + offset, 9000), 0) << offset;
+      }
+    }
+  }
+}
+
 /// The tail begins in the middle of a block of the cache, which keeps whole ones only.
 TEST(RemoteSource, WhatTheTailHasInPartIsThereOffline)
 {

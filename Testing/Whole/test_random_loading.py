@@ -48,6 +48,13 @@ FOUND = ((Loading, {"cloud": 7, "style": {}, "camera": {
             "position": [400023.1415385409, 5600018.244364642, 149.17278858599667],
             "focal_point": [400022.64370498573, 5600018.115764761, 53.185988585995005],
             "view_up": [0, 1, 0], "view_angle": 90}, "error": "0.01", "growth": 0}),
+    # All that is opaque comes after what is translucent.
+    (LoadingMeans, {"cloud": 37506, "style": {
+        "default": {"opacity": 0.2}, "classes": {"5": {"opacity": 0.4}, "6": {"blended": True}}},
+        "camera": {
+            "position": [400067.55581124825, 5600005.692768945, 44.397338598372016],
+            "focal_point": [400061.46169205406, 5600006.579471495, 37.99877859837056],
+            "view_up": [0, 0, 1], "view_angle": 20}, "error": "0.01", "growth": 0.05}),
     # The trees of hidden classes are not loaded.
     (LoadingClouds, {"cloud": 5, "style": {"classes": {"2": {"visible": False}}}, "camera": {
         "position": [400037.03044364793, 5600028.989640989, 58.06921272895356],

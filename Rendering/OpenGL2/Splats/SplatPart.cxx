@@ -53,7 +53,10 @@ std::int64_t SplatPart::draw(const SplatFrame& frame, const FramePlan& plan,
   const std::shared_ptr<SplatTarget>& target, const PixelRectangle* limits)
 {
   const bool nothing = plan.batches.empty() && plan.standIns.empty();
-  if (nothing && plan.keepsVisible && target_ == target)
+  // A picture that was never drawn, or of another size, has no textures that can be composed.
+  const bool drawn = target_ == target && target_->has(parts_) &&
+    parts_.width == plan.camera.width && parts_.height == plan.camera.height;
+  if (nothing && plan.keepsVisible && drawn)
   {
     seen_ = shown_ = {}; // other clouds have the whole budget for a frame: the next one goes on
     return 0;

@@ -25,6 +25,7 @@ struct vtkPointFrontMapper::Content
 
   std::string StoreName;
   vtkMTimeType InputTime = 0;
+  bool MissingTold = false; ///< that this input names no store
   pointfront::MapperFronts Views;
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;

@@ -1,5 +1,7 @@
 #include "MapperProperties.h"
 
+#include <glm/common.hpp>
+
 #include <vtkActor.h>
 #include <vtkCamera.h>
 #include <vtkMatrix4x4.h>
@@ -62,6 +64,7 @@ ColourRequest colourRequestOf(vtkPolyDataMapper& mapper, const StoreDescription&
   {
     request.mode = ColourRequest::Mode::Table;
   }
+  request.coloursInBytes = true; // as arrays have them (AttributeArray)
   request.component = mapper.GetArrayComponent();
   if (request.component < 0 && vectorMode == vtkScalarsToColors::COMPONENT)
   {
@@ -106,6 +109,30 @@ glm::dvec3 withoutNoise(const glm::dmat4& worldToView, const glm::dvec3& point)
   return view;
 }
 
+/// Beyond this a store's coordinate is rounding alone.
+constexpr double farthestReference = 1e13;
+
+/// The point of the store that the actor puts at `world`. An actor that flattens the store puts
+/// many there or none: then the middle of what it draws, and where that is seen.
+void placeReference(vtkActor* actor, const glm::dvec3& world, FrameCamera& frame)
+{
+  vtkNew<vtkMatrix4x4> toStore;
+  vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
+  const double in[4] = { world.x, world.y, world.z, 1.0 };
+  double out[4];
+  toStore->MultiplyPoint(in, out);
+  frame.reference = { out[0] / out[3], out[1] / out[3], out[2] / out[3] };
+  const glm::dvec3 size = glm::abs(frame.reference);
+  const bool placed = actor->GetMatrix()->Determinant() != 0.0 &&
+    std::max({ size.x, size.y, size.z }) < farthestReference; // not of infinities
+  if (!placed)
+  {
+    const double* const box = actor->GetMapper()->GetBounds();
+    frame.reference = 0.5 * glm::dvec3(box[0] + box[1], box[2] + box[3], box[4] + box[5]);
+    frame.referenceInView = glm::dvec3(frame.storeToView * glm::dvec4(frame.reference, 1.0));
+  }
+}
+
 /// An eye of a stereo pair stands beside the camera, which VTK makes a part of the projection: from
 /// there positions are taken.
 void centre(FrameCamera& frame)
@@ -143,12 +170,7 @@ FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
   if (!actor->GetIsIdentity())
   {
     frame.storeToView = frame.storeToView * columnsOf(actor->GetMatrix());
-    vtkNew<vtkMatrix4x4> toStore;
-    vtkMatrix4x4::Invert(actor->GetMatrix(), toStore);
-    const double in[4] = { world.x, world.y, world.z, 1.0 };
-    double out[4];
-    toStore->MultiplyPoint(in, out);
-    frame.reference = { out[0] / out[3], out[1] / out[3], out[2] / out[3] };
+    placeReference(actor, world, frame);
   }
   return frame;
 }

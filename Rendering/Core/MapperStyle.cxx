@@ -33,8 +33,12 @@ std::vector<Rgba8> coloursOf(vtkScalarsToColors& table, const std::vector<double
   vtkNew<vtkDoubleArray> array;
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
+  // As vtkMapper: the property's opacity counts, not the table's.
+  const double alpha = table.GetAlpha();
+  table.SetAlpha(1.0);
   const auto mapped = vtkSmartPointer<vtkUnsignedCharArray>::Take(
     table.MapScalars(array, VTK_COLOR_MODE_MAP_SCALARS, 0));
+  table.SetAlpha(alpha);
   const unsigned char* colour = mapped->GetPointer(0);
   const int components = mapped->GetNumberOfComponents();
   const bool grey = components < 3;
@@ -73,10 +77,23 @@ ColourMap sampleIntegers(vtkScalarsToColors& table, const std::array<std::int64_
   return filled(std::move(map), table, std::move(values));
 }
 
+/// A range of one value: what lies above it has the last colour.
+ColourMap sampleStep(vtkScalarsToColors& table, double value)
+{
+  const double width = 1e-7 * std::max(1.0, std::abs(value));
+  ColourMap map;
+  map.range = { value, value + 2.0 * width };
+  return filled(std::move(map), table, { value - width, value, value + width, value + width });
+}
+
 ColourMap sampleRange(vtkScalarsToColors& table)
 {
   ColourMap map;
   map.range = { table.GetRange()[0], table.GetRange()[1] };
+  if (map.range[0] == map.range[1])
+  {
+    return sampleStep(table, map.range[0]);
+  }
   map.logarithmic = table.UsingLogScale() != 0 && map.range[0] > 0.0 && map.range[1] > 0.0;
   const double low = map.logarithmic ? std::log10(map.range[0]) : map.range[0];
   const double high = map.logarithmic ? std::log10(map.range[1]) : map.range[1];
@@ -235,9 +252,9 @@ std::shared_ptr<const ColourMap> MapperStyle::mapOf(
   if (!map_ || mapTable_ != table || mapTime_ != table->GetMTime() || mapColouring_ != colouring)
   {
     mapTable_ = table;
-    mapTime_ = table->GetMTime();
     mapColouring_ = colouring;
     map_ = std::make_shared<const ColourMap>(sampleColours(*table, colouring));
+    mapTime_ = table->GetMTime(); // that of the table's alpha, which sampling changes and restores
   }
   return map_;
 }
@@ -249,7 +266,7 @@ std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapp
   style.colouring = colouringOf(mapper, store);
   style.map = mapOf(mapper, style.colouring);
   style.flat = flatColour(actor);
-  style.opacity = actor->GetProperty()->GetOpacity();
+  style.opacity = actor->GetForceOpaque() ? 1.0 : actor->GetProperty()->GetOpacity();
   style.size.mode = SplatSize::Mode::Pixels;
   style.size.value = pointSizePx > 0.0 ? pointSizePx : actor->GetProperty()->GetPointSize();
   if (!style_ || *style_ != style)

@@ -22,6 +22,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <map>
 #include <string>
 #include <utility>
@@ -37,6 +38,23 @@ vtkPointFrontMapper::vtkPointFrontMapper()
 vtkPointFrontMapper::~vtkPointFrontMapper()
 {
   this->Internals->Timer.stop();
+}
+
+void vtkPointFrontMapper::SetTargetError(double pixels)
+{
+  if (std::isnan(pixels))
+  {
+    vtkErrorMacro(
+      "a target error is a number of pixels, and this is none; it stays " << this->TargetError);
+    return;
+  }
+  const double kept =
+    std::clamp(pixels, this->GetTargetErrorMinValue(), this->GetTargetErrorMaxValue());
+  if (kept != this->TargetError)
+  {
+    this->TargetError = kept;
+    this->Modified();
+  }
 }
 
 void vtkPointFrontMapper::SetClassVisibility(int objectClass, bool visible)
@@ -55,7 +73,7 @@ bool vtkPointFrontMapper::GetClassVisibility(int objectClass) const
 
 void vtkPointFrontMapper::SetClassTargetErrorFactor(int objectClass, double factor)
 {
-  const double kept = std::clamp(factor, 0.01, 100.0);
+  const double kept = std::isnan(factor) ? 1.0 : std::clamp(factor, 0.01, 100.0);
   if (kept != this->GetClassTargetErrorFactor(objectClass))
   {
     this->Internals->Limits[objectClass].errorFactor = kept;
@@ -70,7 +88,7 @@ double vtkPointFrontMapper::GetClassTargetErrorFactor(int objectClass) const
 
 void vtkPointFrontMapper::SetClassBudgetShare(int objectClass, double share)
 {
-  const double kept = std::clamp(share, 0.0, 1.0);
+  const double kept = std::isnan(share) ? 0.0 : std::clamp(share, 0.0, 1.0);
   if (kept != this->GetClassBudgetShare(objectClass))
   {
     this->Internals->Limits[objectClass].share = kept;
@@ -162,6 +180,9 @@ vtkPointFrontStore* vtkPointFrontMapper::GetStore()
     vtkErrorMacro(<< reason);
   }
   content.Views.setStore(store);
+  content.MissingTold = false;
+  content.Statistics = pointfront::FrameStatistics(); // of no frame
+  content.Statistics.complete = !store; // no frame shows more
   return content.Views.store();
 }
 
@@ -242,6 +263,31 @@ vtkMTimeType vtkPointFrontMapper::GetMTime()
 {
   vtkPointFrontStyle* const style = this->GetStyle();
   return std::max(this->Superclass::GetMTime(), style ? style->GetMTime() : 0);
+}
+
+void vtkPointFrontMapper::ShallowCopy(vtkAbstractMapper* mapper)
+{
+  if (auto* const other = vtkPointFrontMapper::SafeDownCast(mapper))
+  {
+    this->SetTargetError(other->TargetError);
+    this->SetPointBudget(other->PointBudget);
+    this->SetGPUMemoryBudget(other->GPUMemoryBudget);
+    this->SetDetailSelection(other->DetailSelection);
+    this->SetOverviewPoints(other->OverviewPoints);
+    this->SetPointSize(other->PointSize);
+    this->SetBackend(other->Backend);
+    this->SetComplete(other->Complete);
+    this->SetTargetFrameTime(other->TargetFrameTime);
+    this->SetGrowthTime(other->GrowthTime);
+    this->SetUploadLimit(other->UploadLimit);
+    this->SetStorePiece(other->StorePiece);
+    this->SetNumberOfStorePieces(other->NumberOfStorePieces);
+    this->SetStyle(other->GetStyle());
+    this->SetStyleSheet(other->Internals->Sheet);
+    this->Internals->Limits = other->Internals->Limits;
+    this->Modified();
+  }
+  this->Superclass::ShallowCopy(mapper);
 }
 
 void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)

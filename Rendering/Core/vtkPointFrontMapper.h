@@ -61,9 +61,11 @@ public:
   ///@{
   /**
    * The projected point spacing that a still view refines to, in pixels. Default 1, clamped to
-   * [0.01, 1000].
+   * [0.01, 1000]; not a number: an error, and nothing changes.
    */
-  vtkSetClampMacro(TargetError, double, 0.01, 1000.0);
+  virtual void SetTargetError(double pixels);
+  virtual double GetTargetErrorMinValue() { return 0.01; }
+  virtual double GetTargetErrorMaxValue() { return 1000.0; }
   vtkGetMacro(TargetError, double);
   ///@}
 
@@ -136,9 +138,10 @@ public:
    * picture in the opaque pass, so other actors, passes and selections treat them as geometry.
    * AUTOMATIC (default): SOFTWARE where the window's GL is itself a program (GL_RENDERER llvmpipe,
    * softpipe), else OPENGL. Both draw the same pictures except for rounding. OPENGL draws what
-   * SOFTWARE cannot (translucent points, an actor's own shader code), and SOFTWARE draws what
-   * OPENGL cannot (more than 4 lenses or 4 translucent styles). A warning says so once if Backend
-   * asks for the other one.
+   * SOFTWARE cannot (translucent points, a property's points as spheres, an actor's own shader
+   * code), and SOFTWARE draws what OPENGL cannot (more than 4 lenses or 4 translucent styles). A
+   * warning says so once if Backend asks for the other one. Multisampling smooths the edges of
+   * points that OPENGL draws without a style; pictures of SOFTWARE have one sample a pixel.
    */
   vtkSetClampMacro(Backend, int, AUTOMATIC, SOFTWARE);
   vtkGetMacro(Backend, int);
@@ -241,6 +244,8 @@ public:
   vtkPointFrontStyle* GetStyle() const;
   ///@}
   vtkMTimeType GetMTime() override; ///< the style's too
+  /// Takes the input and all settings of another mapper, and shares its style.
+  void ShallowCopy(vtkAbstractMapper* mapper) override;
 
 #ifndef __VTK_WRAP__
   /**

@@ -224,7 +224,7 @@ std::optional<pointfront::CloudLook> vtkPointFrontMapper::BeginFrame(
   Content& content = *this->Internals;
   if (!this->GetStore())
   {
-    if (content.StoreName.empty())
+    if (content.StoreName.empty() && !std::exchange(content.MissingTold, true))
     {
       vtkErrorMacro("the input names no store (field data \""
         << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");

@@ -19,6 +19,7 @@
 #include <vtkLightCollection.h>
 #include <vtkObjectFactory.h>
 #include <vtkOpenGLRenderWindow.h>
+#include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProperty.h>
 #include <vtkWindow.h>
@@ -68,6 +69,12 @@ bool hasTooManyGroups(const std::vector<pointfront::LayerStyling>& layers)
   return std::any_of(groups.begin(), groups.end(),
     [](const auto& ofLens)
     { return ofLens.second.size() > pointfront::SplatComposition::mostGroups; });
+}
+
+/// VTK draws such points itself, where no style says how points are drawn.
+bool areSpheresOfVTK(vtkActor* actor, const pointfront::CloudLook& look)
+{
+  return !look.shading && actor->GetProperty()->GetRenderPointsAsSpheres();
 }
 
 std::size_t lightsThatAreOn(vtkRenderer* renderer)
@@ -299,14 +306,18 @@ bool vtkOpenGLPointFrontMapper::DrawsFromHostMemory(
     vtkWarningMacro("the actor's own shader code is not used: it draws points of a fixed number of "
                     "pixels, and the style asks for more (a technique, a filter, light, lenses)");
   }
-  const bool onlyOpenGL = ownShaders || actor->HasTranslucentPolygonalGeometry() != 0;
+  const bool spheres = areSpheresOfVTK(actor, look);
+  const bool onlyOpenGL = ownShaders || spheres || actor->HasTranslucentPolygonalGeometry() != 0;
   const bool asked =
     this->Backend == SOFTWARE || (this->Backend == AUTOMATIC && pointfront::glIsAProgram());
   if (asked && onlyOpenGL)
   {
     this->TellFallBack(ownShaders
         ? "the software back end does not draw with an actor's own shader code: OpenGL does"
-        : "the software back end does not draw translucent points: OpenGL does");
+        : spheres ? "the software back end does not draw a property's points as spheres: OpenGL "
+                    "does; a style "
+                    "with the technique spheres is drawn by both"
+                  : "the software back end does not draw translucent points: OpenGL does");
     return false;
   }
   if (onlyOpenGL && hasTooMuchLight(renderer, look))

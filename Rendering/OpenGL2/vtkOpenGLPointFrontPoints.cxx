@@ -251,7 +251,18 @@ void vtkOpenGLPointFrontPoints::SetCameraShaderParameters(
     // Through the world point: the product's translation is the difference of large numbers.
     const double* world =
       camera->GetParallelProjection() ? camera->GetFocalPoint() : camera->GetPosition();
-    referenceToView(worldToView, world, moved);
+    // A store that the actor flattens has no point there (cameraOf()).
+    const glm::dvec3& reference = this->Drawing->reference;
+    const double in[4] = { reference.x, reference.y, reference.z, 1.0 };
+    double placed[4];
+    act->GetMatrix()->MultiplyPoint(in, placed);
+    bool isThere = true;
+    for (int axis = 0; axis < 3; ++axis)
+    {
+      const double off = std::abs(placed[axis] - world[axis]);
+      isThere = isThere && off <= 1e-9 * std::max(1.0, std::abs(world[axis]));
+    }
+    referenceToView(worldToView, isThere ? world : placed, moved);
   }
   for (int row = 0; row < 3; ++row)
   {

@@ -33,32 +33,6 @@ T load(const std::byte* bytes)
   return value;
 }
 
-/// World value of one component, or the magnitude of all.
-double worldValue(
-  const PointColouring& colouring, const Attribute& attribute, const std::byte* point)
-{
-  const std::size_t width = sizeOf(attribute.type);
-  const auto component = [&](std::size_t c)
-  {
-    return visitScalar(attribute.type,
-             [&](auto zero) -> double
-             { return static_cast<double>(load<decltype(zero)>(point + c * width)); }) *
-      attribute.scale +
-      attribute.offset;
-  };
-  if (colouring.component >= 0)
-  {
-    const double value = component(static_cast<std::size_t>(colouring.component));
-    return colouring.absolute ? std::abs(value) : value;
-  }
-  double sum = 0.0;
-  for (std::size_t c = 0; c < attribute.components; ++c)
-  {
-    sum += component(c) * component(c);
-  }
-  return std::sqrt(sum);
-}
-
 bool ofFewBits(const PointColouring& colouring, const ColourMap* map, const AttributeSchema& schema)
 {
   if (colouring.kind != PointColouring::Kind::Table || !colouring.usesColumn() || !map)
@@ -91,7 +65,7 @@ ValueColours::ValueColours(
     const auto stored = static_cast<std::uint16_t>(bits);
     std::byte bytes[2];
     std::memcpy(bytes, &stored, 2);
-    table_[bits] = packed(map->at(worldValue(first, one, bytes)));
+    table_[bits] = packed(map->at(first.valueOf(one, bytes)));
   }
 }
 
@@ -189,7 +163,7 @@ double PointColours::valueAt(std::uint32_t point) const
   {
     return colouring.heights->at(node_, point);
   }
-  return worldValue(colouring, *attribute_, column_ + point * stride_);
+  return colouring.valueOf(*attribute_, column_ + point * stride_);
 }
 
 template <typename Reading>

@@ -1,6 +1,8 @@
 #include "ErrorObserver.h"
 #include "Scene.h"
+#include "vtkPointFrontStyle.h"
 
+#include <vtkAssembly.h>
 #include <vtkCameraPass.h>
 #include <vtkEDLShading.h>
 #include <vtkFieldData.h>
@@ -13,7 +15,11 @@
 #include <vtkRenderStepsPass.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkSphereSource.h>
 #include <vtkSSAOPass.h>
+
+#include <limits>
+#include <sstream>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -58,6 +64,76 @@ TEST(Citizenship, ATransparentTableMakesTheActorTranslucent)
   scene.mapper->SetScalarModeToUsePointFieldData();
   scene.mapper->SelectColorArray("classification");
   EXPECT_TRUE(scene.actor->HasTranslucentPolygonalGeometry());
+}
+
+namespace
+{
+
+/// Pixels of a plane of 9 points in either back end, coloured by a table.
+void expectColour(const std::function<void(Scene&)>& change, const std::array<int, 3>& colour)
+{
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
+  {
+    Scene scene(planeStore("tabled", 3, 500));
+    scene.mapper->SetBackend(backend);
+    scene.actor->GetProperty()->SetPointSize(9);
+    scene.mapper->SetColorModeToMapScalars();
+    scene.mapper->SetScalarModeToUsePointFieldData();
+    change(scene);
+    const auto p = scene.project({ 0.5, 0.5, 0.0 });
+    const auto seen = scene.draw().at(static_cast<int>(p[0]), static_cast<int>(p[1]));
+    for (std::size_t c = 0; c < 3; ++c)
+    {
+      EXPECT_NEAR(seen[c], colour[c], 2) << backend << ", " << c;
+    }
+  }
+}
+
+vtkNew<vtkLookupTable> redToBlue()
+{
+  vtkNew<vtkLookupTable> table;
+  table->SetNumberOfTableValues(2);
+  table->SetTableValue(0, 1.0, 0.0, 0.0, 1.0);
+  table->SetTableValue(1, 0.0, 0.0, 1.0, 1.0);
+  return table;
+}
+
+} // namespace
+
+/// VTK maps with the property's opacity in place of the table's.
+TEST(Citizenship, TheAlphaOfATableDoesNotCount)
+{
+  const auto fill = [](Scene& scene)
+  {
+    const auto table = redToBlue();
+    table->SetAlpha(0.5);
+    scene.mapper->SetLookupTable(table);
+    scene.mapper->SetScalarRange(-1.0, 1.0);
+    scene.mapper->SelectColorArray("gps_time");
+  };
+  expectColour(fill, { 0, 0, 255 });
+  const auto forced = [&](Scene& scene)
+  {
+    fill(scene);
+    scene.actor->GetProperty()->SetOpacity(0.5);
+    scene.actor->ForceOpaqueOn();
+  };
+  expectColour(forced, { 0, 0, 128 }); // VTK blends it over the background
+}
+
+TEST(Citizenship, ARangeOfOneValueHasTwoColours)
+{
+  for (const double value : { 0.25, 0.5, 0.75 })
+  {
+    const auto fill = [&](Scene& scene)
+    {
+      scene.mapper->SetLookupTable(redToBlue());
+      scene.mapper->SetScalarRange(value, value);
+      scene.mapper->SelectColorArray("gps_time");
+    };
+    const bool above = 0.5 > value;
+    expectColour(fill, { above ? 0 : 255, 0, above ? 255 : 0 });
+  }
 }
 
 TEST(Citizenship, HardwareSelectionGivesTheIdInTheStore)
@@ -164,6 +240,9 @@ TEST(Citizenship, AnInputWithoutAStoreIsAnErrorNotACrash)
   EXPECT_EQ(scene.draw().lit(), 0);
   EXPECT_TRUE(errors->GetError());
   EXPECT_NE(errors->GetErrorMessage().find("names no store"), std::string::npos);
+  errors->Clear();
+  EXPECT_EQ(scene.draw().lit(), 0);
+  EXPECT_FALSE(errors->GetError()) << "once a cause";
 }
 
 TEST(Citizenship, AnUnknownAttributeIsNamedInAWarning)
@@ -175,6 +254,99 @@ TEST(Citizenship, AnUnknownAttributeIsNamedInAWarning)
   scene.mapper->AddObserver(vtkCommand::WarningEvent, warnings);
   EXPECT_EQ(scene.draw().lit(), 9); // drawn in the property's colour
   EXPECT_NE(warnings->GetWarningMessage().find("temperature"), std::string::npos);
+}
+
+/// A cloud in an assembly before another part: vtkAssembly draws by going through its paths.
+TEST(Citizenship, AnAssemblyDrawsItsCloudAndWhatFollows)
+{
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
+  {
+    Scene scene(planeStore("assembled", 101, 20));
+    scene.mapper->SetBackend(backend);
+    const int alone = static_cast<int>(scene.draw().lit());
+    vtkNew<vtkSphereSource> ball;
+    ball->SetCenter(0.0, 0.0, 0.5);
+    ball->SetRadius(0.2);
+    vtkNew<vtkPolyDataMapper> ballMapper;
+    ballMapper->SetInputConnection(ball->GetOutputPort());
+    vtkNew<vtkActor> ballActor;
+    ballActor->SetMapper(ballMapper);
+    vtkNew<vtkAssembly> assembly;
+    assembly->AddPart(scene.actor);
+    assembly->AddPart(ballActor);
+    scene.renderer->RemoveActor(scene.actor);
+    scene.renderer->AddActor(assembly);
+    for (int frame = 0; frame < 3; ++frame)
+    {
+      EXPECT_GE(scene.draw().lit(), alone * 9 / 10) << backend;
+    }
+  }
+}
+
+TEST(Citizenship, AFlattenedActorIsSeen)
+{
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
+  {
+    Scene scene(planeStore("flattened", 101, 20));
+    scene.mapper->SetBackend(backend);
+    const auto whole = scene.draw().lit();
+    for (const double height : { 0.0, 1e-300 })
+    {
+      scene.actor->SetScale(1.0, 1.0, height); // it is a plane
+      EXPECT_EQ(scene.draw().lit(), whole) << backend << ", " << height;
+    }
+  }
+}
+
+TEST(Citizenship, AnInputThatIsTakenAwayLeavesNothing)
+{
+  Scene scene(planeStore("taken", 3, 500));
+  scene.draw();
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 9);
+  vtkNew<vtkPolyData> nameless;
+  scene.mapper->SetInputData(nameless);
+  EXPECT_EQ(scene.draw().lit(), 0);
+  EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 0);
+}
+
+TEST(Citizenship, ACopyHasAllSettings)
+{
+  vtkNew<vtkPointFrontStyle> style;
+  const auto mapper = vtkSmartPointer<vtkPointFrontMapper>::New();
+  mapper->SetPointSize(3.0);
+  mapper->SetTargetError(2.0);
+  mapper->CompleteOn();
+  mapper->SetPointBudget(7);
+  mapper->SetGPUMemoryBudget(1 << 20);
+  mapper->SetBackendToOpenGL();
+  mapper->SetDetailSelectionToViewSpecific();
+  mapper->SetGrowthTime(9.0);
+  mapper->SetClassVisibility(2, false);
+  mapper->SetStyle(style);
+  mapper->SelectColorArray("intensity");
+  const auto copy = vtkSmartPointer<vtkPointFrontMapper>::New();
+  copy->ShallowCopy(mapper);
+  std::ostringstream said, expected;
+  copy->PrintSelf(said, vtkIndent());
+  mapper->PrintSelf(expected, vtkIndent());
+  const auto settings = [](const std::string& text)
+  { return text.substr(text.find("TargetError")); };
+  EXPECT_EQ(settings(said.str()), settings(expected.str()));
+  EXPECT_FALSE(copy->GetClassVisibility(2));
+  EXPECT_EQ(copy->GetStyle(), style);
+  EXPECT_STREQ(copy->GetArrayName(), "intensity");
+}
+
+TEST(Citizenship, ATargetErrorIsANumber)
+{
+  const auto mapper = vtkSmartPointer<vtkPointFrontMapper>::New();
+  vtkNew<ErrorObserver> errors;
+  mapper->AddObserver(vtkCommand::ErrorEvent, errors);
+  mapper->SetTargetError(std::numeric_limits<double>::quiet_NaN());
+  EXPECT_TRUE(errors->GetError());
+  EXPECT_EQ(mapper->GetTargetError(), 1.0);
+  mapper->SetTargetError(1e9);
+  EXPECT_EQ(mapper->GetTargetError(), 1000.0);
 }
 
 } // namespace

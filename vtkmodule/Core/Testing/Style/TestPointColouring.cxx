@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstring>
 
 using namespace pointfront;
@@ -68,6 +69,33 @@ TEST(PointColouring, KindsFollowVtksModes)
   ColourRequest unknown;
   unknown.name = "temperature";
   EXPECT_FALSE(PointColouring::choose(store, unknown));
+}
+
+/// As VTK's arrays of such a colour, whose ranges the table has.
+TEST(PointColouring, OneChannelOfAWideColourCountsInBytesIfAskedTo)
+{
+  const NodeColumns node = nodeOf<std::uint16_t>(0, { 0x1234, 0x80ff, 0xffff }, 1);
+  ColourRequest request;
+  request.name = "rgb";
+  request.mode = Mode::Table;
+  for (const bool inBytes : { false, true })
+  {
+    request.coloursInBytes = inBytes;
+    request.component = 1;
+    const auto green = *PointColouring::choose(description(), request);
+    std::vector<std::uint32_t> values;
+    green.encode(node, description().schema, 0, 1, values);
+    EXPECT_EQ(number(values[0]), inBytes ? 0x80 : 0x80ff);
+    EXPECT_EQ(green.integers.has_value(), inBytes) << "few enough for an entry each";
+    request.component = -1;
+    values.clear();
+    PointColouring::choose(description(), request)
+      ->encode(node, description().schema, 0, 1, values);
+    const double red = inBytes ? 0x12 : 0x1234, blue = inBytes ? 0xff : 0xffff;
+    const double middle = inBytes ? 0x80 : 0x80ff;
+    EXPECT_FLOAT_EQ(
+      number(values[0]), static_cast<float>(std::sqrt(red * red + middle * middle + blue * blue)));
+  }
 }
 
 TEST(PointColouring, NeedsOnlyItsColumn)

@@ -54,6 +54,11 @@ std::uint32_t packed(float number)
   return value;
 }
 
+bool isWideColour(const Attribute& attribute)
+{
+  return sameWithoutCase(attribute.name, "rgb") && attribute.type == ScalarType::UInt16;
+}
+
 bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
 {
   if (mode == ColourRequest::Mode::Table ||
@@ -62,7 +67,7 @@ bool isColour(const Attribute& attribute, ColourRequest::Mode mode)
     return false;
   }
   return mode == ColourRequest::Mode::Direct || attribute.type == ScalarType::UInt8 ||
-    (sameWithoutCase(attribute.name, "rgb") && attribute.type == ScalarType::UInt16);
+    isWideColour(attribute);
 }
 
 } // namespace
@@ -131,17 +136,17 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
   const Attribute& attribute = description.schema[*column];
   const auto& ranges = description.ranges[*column].components;
   colouring.column = static_cast<std::uint32_t>(*column);
+  const bool wide =
+    std::any_of(ranges.begin(), ranges.end(), [](const auto& range) { return range[1] > 255.0; });
   if (isColour(attribute, request.mode))
   {
     colouring.kind = Kind::Direct;
     colouring.colourRange = request.colourRange;
-    for (const auto& range : ranges)
-    {
-      colouring.wide = colouring.wide || range[1] > 255.0;
-    }
+    colouring.wide = wide;
     return colouring;
   }
   colouring.kind = Kind::Table;
+  colouring.wide = wide && request.coloursInBytes && isWideColour(attribute);
   colouring.component =
     attribute.components == 1 ? 0 : std::min<int>(request.component, attribute.components - 1);
   if (colouring.component >= 0)
@@ -150,14 +155,16 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
     const auto& range = ranges[component];
     const auto certain = certainRange(description, *column).components[component];
     const bool known = range[0] <= range[1];
-    const double low = range[0] * attribute.scale + attribute.offset;
-    const double high = range[1] * attribute.scale + attribute.offset;
-    colouring.base = known ? std::min(low, high) : 0.0;
+    const auto world = [&](double stored)
+    { return colouring.inBytes(stored * attribute.scale + attribute.offset); };
+    colouring.base = known ? std::min(world(range[0]), world(range[1])) : 0.0;
     if (known && isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0 &&
-      certain[1] - certain[0] < static_cast<double>(mostIntegers))
+      colouring.inBytes(certain[1]) - colouring.inBytes(certain[0]) <
+        static_cast<double>(mostIntegers))
     {
-      colouring.integers = std::array<std::int64_t, 2>{ static_cast<std::int64_t>(certain[0]),
-        static_cast<std::int64_t>(certain[1]) };
+      colouring.integers =
+        std::array<std::int64_t, 2>{ static_cast<std::int64_t>(colouring.inBytes(certain[0])),
+          static_cast<std::int64_t>(colouring.inBytes(certain[1])) };
     }
   }
   return colouring;
@@ -214,30 +221,36 @@ void PointColouring::encodeColours(const std::byte* point, const Attribute& attr
   }
 }
 
-void PointColouring::encodeNumbers(const std::byte* point, const Attribute& attribute,
-  std::uint32_t count, std::vector<std::uint32_t>& values) const
+double PointColouring::inBytes(double value) const
+{
+  return kind == Kind::Table && wide ? std::floor(value / 256.0) : value;
+}
+
+double PointColouring::valueOf(const Attribute& attribute, const std::byte* point) const
 {
   const Reading reading = readingOf(attribute.type);
   const std::size_t width = sizeOf(attribute.type);
   const auto number = [&](std::size_t c)
-  { return reading(point + c * width) * attribute.scale + attribute.offset; };
+  { return inBytes(reading(point + c * width) * attribute.scale + attribute.offset); };
+  if (component >= 0)
+  {
+    const double value = number(static_cast<std::size_t>(component));
+    return absolute ? std::abs(value) : value;
+  }
+  double sum = 0.0;
+  for (std::size_t c = 0; c < attribute.components; ++c)
+  {
+    sum += number(c) * number(c);
+  }
+  return std::sqrt(sum);
+}
+
+void PointColouring::encodeNumbers(const std::byte* point, const Attribute& attribute,
+  std::uint32_t count, std::vector<std::uint32_t>& values) const
+{
   for (std::uint32_t i = 0; i < count; ++i, point += attribute.bytes())
   {
-    double value = 0.0;
-    if (component >= 0)
-    {
-      value = number(static_cast<std::size_t>(component));
-      value = absolute ? std::abs(value) : value;
-    }
-    else
-    {
-      for (std::size_t c = 0; c < attribute.components; ++c)
-      {
-        value += number(c) * number(c);
-      }
-      value = std::sqrt(value);
-    }
-    values.push_back(packed(static_cast<float>(value - base)));
+    values.push_back(packed(static_cast<float>(valueOf(attribute, point) - base)));
   }
 }
 

@@ -30,6 +30,9 @@ struct ColourRequest
   /// Direct: the values of floating or scaled components that are black and full (a lookup table
   /// of vector mode RGB colours has such a range). {-1, 1} shows a normal as a colour.
   std::array<double, 2> colourRange{ 0.0, 1.0 };
+  /// Table: values of a 16-bit "rgb" that is a colour count by their upper bytes, as VTK's arrays
+  /// of it do.
+  bool coloursInBytes = false;
 };
 
 /// From a stored component to 0..255: byte = stored * factor + offset, clamped.
@@ -64,7 +67,8 @@ struct PointColouring
   int component = 0; ///< -1: magnitude
   double base = 0.0; ///< world value that float 0 stands for: floats keep large GPS times apart
   bool absolute = false; ///< Table: of the component
-  bool wide = false; ///< Direct: integer components use all bits of their type
+  /// Direct: integer components use all bits of their type. Table: values are their upper bytes.
+  bool wide = false;
   std::array<double, 2> colourRange{ 0.0, 1.0 }; ///< Direct: as in ColourRequest
   /// Table: the value is a point's height in its class, of no column.
   std::shared_ptr<const ClassHeights> heights;
@@ -86,6 +90,9 @@ struct PointColouring
   /// True if `node` was read with what this colouring needs.
   bool coveredBy(const NodeColumns& node) const;
 
+  /// Table: the value of a point's bytes, which begin at `point`; one component, or the magnitude
+  /// of all.
+  double valueOf(const Attribute& attribute, const std::byte* point) const;
   /// Values of points [first, first + count) of a node that covers this colouring. Appends.
   void encode(const NodeColumns& node, const AttributeSchema& schema, std::uint32_t first,
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
@@ -99,6 +106,7 @@ struct PointColouring
   friend bool operator!=(const PointColouring& a, const PointColouring& b) { return !(a == b); }
 
 private:
+  double inBytes(double value) const;
   static std::optional<PointColouring> derived(const StoreDescription& description,
     const ColourRequest& request, std::shared_ptr<const ClassHeights> heights);
   void encodeColours(const std::byte* point, const Attribute& attribute, std::uint32_t count,

@@ -5,7 +5,7 @@ import os
 import random
 
 import numpy
-from expected import compare, exported, surveys
+from expected import classified, compare, exported, surveys
 from pictures import differing, load
 from programs import HERE, mpi, python_client, tool, with_server
 
@@ -88,9 +88,10 @@ def refusals(programs):
 
 def series(programs):
     steps = surveys()
-    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "series.py"), json.dumps(steps)]
-    programs.run(*command)
-    programs.run(*mpi(2, *command))
+    for script, told in (("series.py", steps), ("class_steps.py", classified())):
+        command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, script), json.dumps(told)]
+        programs.run(*command)
+        programs.run(*mpi(2, *command))
 
 
 def epochs(programs):

@@ -54,3 +54,20 @@ def surveys():
              *(["--attributes", "rgb"] if time == 1 else []))
         steps.append((store, json.loads(tool("info", store, "--json"))["points"]))
     return steps
+
+
+def classified():
+    """A made-up town in three steps with other classes.
+
+    Pairs of a store and a mapping: points of each class.
+    """
+    tool("generate", "--points", "60000", "--seed", "3", "-o", "town.las", "--force")
+    tool("build", "town.las", "-o", "town.pfront", "--layers", "class", "--force")
+    steps = []
+    for classes in ("2,6", "2,5", "5"):
+        store = os.path.abspath("step_%d.pfront" % len(steps))
+        tool("export", "town.pfront", "-o", "step.las", "--classes", classes, "--force")
+        tool("build", "step.las", "-o", store, "--layers", "class", "--force")
+        layers = json.loads(tool("info", store, "--json"))["layers"]
+        steps.append((store, {layer["name"]: layer["points"] for layer in layers}))
+    return steps

@@ -96,10 +96,41 @@ void vtkSMPointFrontRepresentationProxy::GatherClasses()
   this->GatherInformation(classes);
   this->Classes = classes->GetNames();
   this->TellClasses();
-  vtkSMProperty* shown = this->GetProperty("Classes");
-  if (!this->Classes.empty() && vtkSMPropertyHelper(shown).GetNumberOfElements() == 0)
+  if (!this->Classes.empty())
   {
-    shown->ResetToDomainDefaults();
+    this->ListClasses();
+  }
+}
+
+//------------------------------------------------------------------------------
+void vtkSMPointFrontRepresentationProxy::ListClasses()
+{
+  auto* property = vtkSMStringVectorProperty::SafeDownCast(this->GetProperty("Classes"));
+  const std::vector<std::string> before = property->GetElements();
+  // A state or a script may have chosen already: then the others are off.
+  const bool otherwise = !this->ClassShown.empty() || before.empty();
+  for (std::size_t i = 0; i + 1 < before.size(); i += 2)
+  {
+    this->ClassShown[before[i]] = before[i + 1] != "0";
+  }
+  std::vector<std::string> after;
+  for (const std::string& name : this->Classes)
+  {
+    const bool shown = this->ClassShown.try_emplace(name, otherwise).first->second;
+    after.insert(after.end(), { name, shown ? "1" : "0" });
+  }
+  // Classes of earlier stores that are off: the property says so until they come again.
+  for (const auto& [name, shown] : this->ClassShown)
+  {
+    const auto end = this->Classes.end();
+    if (!shown && std::find(this->Classes.begin(), end, name) == end)
+    {
+      after.insert(after.end(), { name, "0" });
+    }
+  }
+  if (after != before)
+  {
+    property->SetElements(after);
     this->UpdateVTKObjects();
   }
 }

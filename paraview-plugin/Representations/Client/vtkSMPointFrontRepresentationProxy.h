@@ -23,6 +23,7 @@
 #include "vtkSMRepresentationProxy.h"
 #include "vtkWeakPointer.h" // for the view
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -60,9 +61,12 @@ private:
   vtkSMPointFrontRepresentationProxy(const vtkSMPointFrontRepresentationProxy&) = delete;
   void operator=(const vtkSMPointFrontRepresentationProxy&) = delete;
 
-  /// Asks the server for the classes of the store; all are shown where nothing else was chosen.
+  /// Asks the server for the classes of the store.
   void GatherClasses();
   void TellClasses();
+  /// Enters the classes of the store in the property: those that were switched off as hidden, all
+  /// others as shown.
+  void ListClasses();
   /// Tells the reader's panel about a store that is built meanwhile.
   void TellStore();
   /// Sets what the panel shows of a frame.
@@ -79,6 +83,7 @@ private:
   void OnTimer(vtkObject* interactor, unsigned long event, void* timer);
 
   std::vector<std::string> Classes; ///< classes of the store
+  std::map<std::string, bool> ClassShown; ///< those of this store and of earlier ones
   vtkWeakPointer<vtkSMViewProxy> View;
   vtkWeakPointer<vtkRenderWindowInteractor> Interactor;
   unsigned long StartObserver = 0;

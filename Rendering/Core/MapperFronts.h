@@ -42,6 +42,8 @@ public:
   /// Makes the front of a view if it has none. True if this call made it.
   bool openFront(vtkRenderer* renderer, RendererFront& view);
 
+  /// Whether the last frame of any renderer drew the store.
+  bool isSeen() const;
   /// Number of renderers of that window.
   std::uint32_t countIn(vtkWindow* window) const;
   /// The part of a budget of points that the views in that window may have on its GPU.
@@ -55,7 +57,6 @@ public:
     const LayersOf& layersOf);
 
 private:
-  bool isSeen() const;
   void takeSuccessor();
 
   std::function<void()> unseen_;

@@ -311,6 +311,9 @@ public:
   bool GetLastLimitedByMemory() const;
   /// Nodes of this view that could not be read; the nodes above them are drawn in their place.
   vtkIdType GetLastFailedNodes() const;
+  /// True when a renderer's last frame drew this mapper, and the facts above are of that frame.
+  /// False for one that is hidden, out of sight or never was in view: there is nothing to wait for.
+  bool IsSeen() const;
   ///@}
 
   ///@{

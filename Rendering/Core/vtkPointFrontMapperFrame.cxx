@@ -347,6 +347,11 @@ bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
   return view && view->View.isAhead();
 }
 
+bool vtkPointFrontMapper::IsSeen() const
+{
+  return this->Internals->Views.isSeen();
+}
+
 bool vtkPointFrontMapper::NeedsRender()
 {
   return this->Internals->Views.needsRender();

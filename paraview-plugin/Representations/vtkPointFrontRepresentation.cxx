@@ -701,27 +701,33 @@ bool vtkPointFrontRepresentation::IsDrawing()
 }
 
 //------------------------------------------------------------------------------
+bool vtkPointFrontRepresentation::IsSeen()
+{
+  return this->IsDrawing() && this->Mapper->IsSeen();
+}
+
+//------------------------------------------------------------------------------
 vtkIdType vtkPointFrontRepresentation::GetPointsDrawn()
 {
-  return this->IsDrawing() ? this->Mapper->GetLastPointsDrawn() : 0;
+  return this->IsSeen() ? this->Mapper->GetLastPointsDrawn() : 0;
 }
 
 //------------------------------------------------------------------------------
 vtkIdType vtkPointFrontRepresentation::GetNodesDrawn()
 {
-  return this->IsDrawing() ? this->Mapper->GetLastNodesDrawn() : 0;
+  return this->IsSeen() ? this->Mapper->GetLastNodesDrawn() : 0;
 }
 
 //------------------------------------------------------------------------------
 double vtkPointFrontRepresentation::GetProjectedSpacing()
 {
-  return this->IsDrawing() ? this->Mapper->GetLastError() : 0.0;
+  return this->IsSeen() ? this->Mapper->GetLastError() : 0.0;
 }
 
 //------------------------------------------------------------------------------
 std::string vtkPointFrontRepresentation::GetTechniqueDrawn()
 {
-  const bool draws = this->IsDrawing() && this->Mapper->GetLastPointsDrawn() > 0;
+  const bool draws = this->IsSeen() && this->Mapper->GetLastPointsDrawn() > 0;
   return draws ? this->Mapper->GetLastTechnique() : std::string();
 }
 
@@ -734,13 +740,13 @@ vtkIdType vtkPointFrontRepresentation::GetStorePoints()
 //------------------------------------------------------------------------------
 vtkIdType vtkPointFrontRepresentation::GetMissingNodes()
 {
-  return this->IsDrawing() ? this->Mapper->GetLastFailedNodes() : 0;
+  return this->IsSeen() ? this->Mapper->GetLastFailedNodes() : 0;
 }
 
 //------------------------------------------------------------------------------
 int vtkPointFrontRepresentation::GetFrameLimits()
 {
-  if (!this->IsDrawing())
+  if (!this->IsSeen())
   {
     return 0;
   }
@@ -756,7 +762,9 @@ int vtkPointFrontRepresentation::GetFrameLimits()
 //------------------------------------------------------------------------------
 bool vtkPointFrontRepresentation::GetFrameComplete()
 {
-  return !this->IsDrawing() || (this->Mapper->GetLastComplete() && this->GetBuildState().empty());
+  // A cloud that is out of view lacks nothing, but its build goes on.
+  const bool loaded = !this->IsSeen() || this->Mapper->GetLastComplete();
+  return !this->IsDrawing() || (loaded && this->GetBuildState().empty());
 }
 
 //------------------------------------------------------------------------------

@@ -302,6 +302,8 @@ private:
   bool WantsComplete(vtkPVRenderView* view) const;
   /// Whether this process draws points of a store.
   bool IsDrawing();
+  /// Whether its last frame did: the cloud is in view.
+  bool IsSeen();
 
   vtkNew<vtkPointFrontMapper> Mapper;
   vtkNew<vtkProperty> Property;

@@ -175,6 +175,13 @@ def views(programs):
     told = open("views.log").read().split("damaged", 1)[1]
     if told.count("ERR|") != 1:
         raise AssertionError("%d errors for one damaged store" % told.count("ERR|"))
+    tool("export", os.environ["POINTFRONT_STORE"], "-o", "none.las", "--force",
+         "--where", "z > 1e9")
+    empty = os.path.abspath("empty.pfront")
+    tool("build", "none.las", "-o", empty, "--force")
+    command = [os.environ["POINTFRONT_PVBATCH"], os.path.join(HERE, "unseen.py"), empty]
+    programs.run(*command)
+    programs.run(*mpi(2, *command))
 
 
 def looks(programs):
@@ -189,7 +196,6 @@ def looks(programs):
     if told.count("has no attribute") != 1:
         raise AssertionError("an unknown attribute is told of %d times"
                              % told.count("has no attribute"))
-
 
 def lens(programs):
     for count in (1, 2):
@@ -262,6 +268,8 @@ def panel(programs):
     if found["frames"] != 0 or not 0.0 <= found["seconds"] < 0.1:
         raise AssertionError("at rest, in two seconds: %d frames, %.3f s of processors"
                              % (found["frames"], found["seconds"]))
+    if found["unseen"] != [1, "nothing"]:
+        raise AssertionError("a cloud out of view is complete, limited by: %s" % found["unseen"])
     _, technique, error, told = found["quality"]
     if not told.startswith("quality 0.9: ") or " at %g px" % error not in told:
         raise AssertionError("a typed quality is %s at %g: %s" % (technique, error, told))

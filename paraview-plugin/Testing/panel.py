@@ -1,5 +1,6 @@
 """The ParaView application shows on its panel what the view shows, without being asked, and then
-rests: no frame, no processor time. A quality is typed into the panel.
+rests: no frame, no processor time. So it is of a cloud that is out of view. A quality is typed into
+the panel.
 
 Runs as `paraview --dr --script=panel.py`. Reads what the properties hold, and updates none. Writes
 panel.json: what the panel said last.
@@ -15,7 +16,7 @@ from session import AT_REST, Session
 
 RESTS = 10  # ticks of the event loop in which nothing else happens
 
-session = Session("panel", points="", limits="", quality=[], frames=-1, seconds=-1.0)
+session = Session("panel", points="", limits="", unseen=[], quality=[], frames=-1, seconds=-1.0)
 said = session.found
 
 
@@ -27,6 +28,10 @@ def start():
     import scene
 
     shown = scene.Scene(simple.GetActiveViewOrCreate("RenderView"))
+    # Another is turned about the origin, out of the view.
+    unseen = shown.show(simple.OpenDataFile(scene.STORE))
+    unseen.Orientation = [180, 0, 0]
+    simple.SetActiveSource(shown.reader)
 
     drawn, states = [], []  # a frame each; at each tick of a complete view, frames and seconds
     shown.view.SMProxy.AddObserver("EndEvent", lambda *_: drawn.append(1))
@@ -42,6 +47,8 @@ def start():
         proxy = shown.display.SMProxy
         said["points"] = proxy.GetProperty("PointsInView").GetElement(0)
         said["limits"] = proxy.GetProperty("LimitedBy").GetElement(0)
+        said["unseen"] = [unseen.SMProxy.GetProperty(name).GetElement(0) for name in
+                          ("FrameComplete", "LimitedBy")]
         all_points = "{0:,} of {0:,}".format(scene.POINTS)
         if not said["quality"]:
             if said["points"] != all_points or said["limits"] != "nothing" or not rested() \

@@ -33,16 +33,12 @@ bool StyleChoice::readFile(std::string& error)
     std::ifstream file(file_);
     const std::string text{ std::istreambuf_iterator<char>(file),
       std::istreambuf_iterator<char>() };
-    if (!file && text.empty())
-    {
-      error = file_ + ": the style sheet cannot be read";
-    }
-    else
-    {
-      fileStyle_->LoadJSON(text); // says itself what is wrong
-    }
+    const bool missing = !file && text.empty();
+    fileError_ = missing ? file_ + ": the style sheet cannot be read" : std::string();
+    fileCounts_ = !missing && fileStyle_->LoadJSON(text); // says itself what is wrong
   }
-  return error.empty();
+  error = error.empty() ? fileError_ : error;
+  return fileCounts_;
 }
 
 vtkPointFrontStyle* StyleChoice::style(
@@ -54,22 +50,19 @@ vtkPointFrontStyle* StyleChoice::style(
     wrong = wrong.empty() ? rows->wrong() : wrong;
   }
   StyleSheet sheet;
-  bool needed =
-    !classes.empty() || !lights.empty() || lens.shows() || !file_.empty() || !look.plain();
-  if (!file_.empty())
+  const bool byFile = !file_.empty() && readFile(wrong);
+  bool needed = !classes.empty() || !lights.empty() || lens.shows() || byFile || !look.plain();
+  if (byFile)
   {
-    if (readFile(wrong))
-    {
-      sheet = fileStyle_->GetStyleSheet();
-    }
+    sheet = fileStyle_->GetStyleSheet();
   }
   else if (needed && !applyLook(look, colour, sheet, wrong))
   {
     needed = false;
   }
   // A file says how large its points are.
-  const auto sized = [this](const LayerStyle& differs)
-  { return file_.empty() ? look.sized(differs) : differs; };
+  const auto sized = [&](const LayerStyle& differs)
+  { return byFile ? differs : look.sized(differs); };
   for (const auto& [number, differs] : classes.sheet().classes)
   {
     LayerStyle& own = sheet.classes[number];

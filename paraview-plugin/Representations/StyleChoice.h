@@ -24,7 +24,8 @@ public:
 
   PointLook look;
 
-  /// As the process that draws sees it; read when it is needed first. Empty: none.
+  /// As the process that draws sees it; read when it is needed first. Empty: none. One that cannot
+  /// be read counts for nothing.
   void setFile(const std::string& fileName);
   ClassRows classes; ///< errors are said by `style()`
   ClassRows lights; ///< lights of classes
@@ -36,10 +37,14 @@ public:
   vtkPointFrontStyle* style(const LookColour& colour, int width, int height, std::string& error);
 
 private:
+  /// Whether the file says how points look; where nothing else is wrong, `error` is what is wrong
+  /// with it.
   bool readFile(std::string& error);
 
   std::string file_;
   bool fileRead_ = false;
+  bool fileCounts_ = false;
+  std::string fileError_;
   std::string said_;
   vtkNew<vtkPointFrontStyle> fileStyle_;
   vtkNew<vtkPointFrontStyle> style_;

@@ -193,9 +193,10 @@ def looks(programs):
         finally:
             print(open("looks.log").read())
     told = open("looks.log").read()
-    if told.count("has no attribute") != 1:
-        raise AssertionError("an unknown attribute is told of %d times"
-                             % told.count("has no attribute"))
+    for words in ("has no attribute", "the style sheet cannot be read", "not JSON"):
+        if told.count(words) != 1:
+            raise AssertionError("\"%s\" is told %d times" % (words, told.count(words)))
+
 
 def lens(programs):
     for count in (1, 2):

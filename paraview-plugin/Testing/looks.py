@@ -170,7 +170,22 @@ with open(sheet, "w") as file:
 display.StyleFile = sheet
 green = colours(picture("sheet"))
 require(len(green) == 2 and green[-1].tolist() == [0, 255, 0], "not the sheet's: %s" % green)
+# A wrong row of a class counts for nothing, and the sheet for as much as without it.
+display.ClassStyles = ["0", "no technique", "", ""]
+require(numpy.array_equal(colours(picture("sheet-row")), green), "a wrong row takes the sheet away")
+# Nor does a sheet that cannot be read count.
+display.Technique, display.ClassStyles = "splats", ["0", "", "#0000ff", ""]
 display.StyleFile = ""
+before = picture("no-sheet")
+broken = os.path.join(OUTPUT, "broken.json")
+with open(broken, "w") as file:
+    file.write("{ \"default\": ")
+for name in ("no such sheet.json", broken):
+    display.StyleFile = name
+    for shot in ("first", "then"):
+        require(pictures.differing(before, picture("sheet-" + shot), 0) == 0,
+                "%s, %s: the picture changes" % (name, shot))
+display.StyleFile, display.Technique, display.ClassStyles = "", "points", []
 
 # In a view that waits for nothing, a new colour or filter is complete when its points are there,
 # and not before: no further frame shows more.

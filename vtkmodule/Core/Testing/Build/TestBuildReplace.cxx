@@ -2,6 +2,9 @@
 
 #include "pointfront/Export/StoreExport.h"
 #include "pointfront/Means/MeanRecord.h"
+#include "pointfront/Points/NormalAttribute.h"
+
+#include <glm/geometric.hpp>
 
 #include <cmath>
 
@@ -262,6 +265,109 @@ TEST_P(ReplaceBuild, RefusesAnInputThatHasTheColumnAlready)
   ASSERT_FALSE(report);
   EXPECT_NE(report.error().what.find(enclosingRadiusName), std::string::npos);
   EXPECT_FALSE(fs::exists(options_.outputPath));
+}
+
+/// Points with an id, a normal as the passes store it (half of them with none or of another
+/// length) and values that no mean of one value gives back: NaN, -0, integers beyond doubles.
+std::unique_ptr<CloudSource> oriented(std::size_t count)
+{
+  AttributeSchema schema;
+  schema.add({ "id", ScalarType::UInt32, 1 });
+  schema.add(normalAttribute());
+  schema.add({ "height", ScalarType::Float32, 1 });
+  schema.add({ "stamp", ScalarType::Int64, 1, 0.5 });
+  auto cloud = std::make_unique<CloudSource>("cloud", schema, millimetres());
+  Random random(5);
+  for (std::size_t i = 0; i < count; ++i)
+  {
+    const double x = random.uniform();
+    const double y = random.uniform();
+    cloud->addPosition({ std::round(x * 1e5) / 1e3, std::round(y * 1e5) / 1e3, 0.0 });
+    cloud->addValue(0, static_cast<std::uint32_t>(i));
+    const PackedNormal unit = packNormal(glm::normalize(glm::dvec3(x - 0.5, y - 0.5, 1.0)));
+    const PackedNormal other(static_cast<std::int16_t>(i % 300), 20000, -7);
+    cloud->addValue(1, i % 4 == 1 ? PackedNormal(0) : i % 4 == 3 ? other : unit);
+    cloud->addValue(2, i % 3 == 0 ? std::nanf("") : i % 3 == 1 ? -0.0f : 0.1f);
+    cloud->addValue(3, (std::int64_t(1) << 62) + static_cast<std::int64_t>(i));
+  }
+  return cloud;
+}
+
+/// The points that a cloud's leaves do not hold bit for bit.
+std::size_t changedPoints(const PointStore& store, const CloudSource& cloud)
+{
+  const AttributeSchema& schema = cloud.description().schema;
+  std::size_t changed = 0;
+  for (NodeIndex n = 0; n < store.hierarchy()->nodeCount(); ++n)
+  {
+    const auto node = store.read(n, { 0, 1, 2, 3 });
+    EXPECT_TRUE(node);
+    for (std::size_t i = 0; store.hierarchy()->node(n).leaf() && i < node->size(); ++i)
+    {
+      const auto id = valueOf<std::uint32_t>(*node, 0, i);
+      bool same = true;
+      for (std::size_t c = 0; c < schema.size(); ++c)
+      {
+        const std::size_t bytes = schema[c].bytes();
+        same = same &&
+          std::memcmp(
+            node->columns[c].data() + i * bytes, cloud.column(c).data() + id * bytes, bytes) == 0;
+      }
+      changed += same ? 0 : 1;
+    }
+  }
+  return changed;
+}
+
+TEST_P(ReplaceBuild, LeavesHoldTheInputBitForBit)
+{
+  // One leaf, leaves of one part, and leaves of many parts that join or grow together.
+  for (const auto& [count, memory] : { std::pair<std::size_t, std::uint64_t>(50, 1u << 30),
+         { 3000, 1u << 30 }, { 40000, 500 << 10 } })
+  {
+    options_.memoryBytes = memory;
+    auto cloud = oriented(count);
+    const CloudSource input = *cloud;
+    const auto store = build(std::move(cloud));
+    EXPECT_EQ(store->description().schema.find("stamp"), std::optional<std::size_t>(3));
+    EXPECT_EQ(changedPoints(*store, input), 0u) << count;
+  }
+}
+
+/// Upwards and outwards from the centre of a square of 100 m.
+glm::dvec3 normalAt(const glm::dvec3& place)
+{
+  return glm::normalize(glm::dvec3(place.x / 100.0 - 0.5, place.y / 100.0 - 0.5, 1.0));
+}
+
+TEST_P(ReplaceBuild, RepresentativesHaveUnitNormalsInTheScaleOfTheColumn)
+{
+  AttributeSchema schema;
+  schema.add(normalAttribute());
+  auto cloud = std::make_unique<CloudSource>("cloud", schema, millimetres());
+  Random random(6);
+  for (std::size_t i = 0; i < 20000; ++i)
+  {
+    const glm::dvec3 place(100.0 * random.uniform(), 100.0 * random.uniform(), 0.0);
+    cloud->addPosition(place);
+    cloud->addValue(0, packNormal(normalAt(place)));
+  }
+  const auto store = build(std::move(cloud));
+  std::size_t representatives = 0;
+  for (NodeIndex n = 0; n < store->hierarchy()->nodeCount(); ++n)
+  {
+    const auto node = store->read(n, { 0 });
+    ASSERT_TRUE(node);
+    const std::vector<glm::dvec3> world = worldOf(*node, store->description().grid);
+    for (std::size_t i = 0; !store->hierarchy()->node(n).leaf() && i < node->size(); ++i)
+    {
+      const glm::dvec3 stored(valueOf<PackedNormal>(*node, 0, i));
+      ASSERT_NEAR(glm::length(stored), normalSteps, 2.0) << "node " << n;
+      ASSERT_GT(glm::dot(stored / double(normalSteps), normalAt(world[i])), 0.98) << "node " << n;
+      ++representatives;
+    }
+  }
+  EXPECT_GT(representatives, 2000u);
 }
 
 TEST(MeanRecord, CodesComeFromTheNearestAndNormalsKeepLengthOne)

@@ -106,6 +106,8 @@ MeanRecord::MeanRecord(const TreeSpace& space, const AttributeSchema& pooled)
       mean.offset = layout.offset(c) + k * sizeOf(attribute.type);
       mean.type = attribute.type;
       mean.normal = k == 0 && attribute.name == "normal" && attribute.components == 3;
+      mean.scale = attribute.scale;
+      mean.zero = attribute.offset;
       means_.push_back(mean);
     }
   }
@@ -181,20 +183,60 @@ void MeanRecord::writeMeans(std::byte* out)
   }
   for (std::size_t m = 0; m + 2 < means_.size(); ++m)
   {
-    const double length = means_[m].normal
-      ? glm::length(valueAt<glm::dvec3>(out + meansOffset_ + m * sizeof(double)))
-      : 0.0;
-    for (std::size_t k = m; length > 0.0 && k < m + 3; ++k)
+    if (means_[m].normal)
     {
-      writeScalar(means_[k].type, out + means_[k].offset,
-        valueAt<double>(out + meansOffset_ + k * sizeof(double)) / length);
+      writeUnitNormal(m, out);
     }
+  }
+}
+
+/// Length 1 once the column's scale is applied: the stored numbers may be steps of a
+/// ten-thousandth.
+void MeanRecord::writeUnitNormal(std::size_t first, std::byte* out) const
+{
+  const double scale = means_[first].scale;
+  const double zero = means_[first].zero;
+  const auto mean = valueAt<glm::dvec3>(out + meansOffset_ + first * sizeof(double));
+  const glm::dvec3 normal = mean * scale + zero;
+  const double length = glm::length(normal);
+  for (int k = 0; length > 0.0 && k < 3; ++k)
+  {
+    const Mean& component = means_[first + static_cast<std::size_t>(k)];
+    writeScalar(component.type, out + component.offset, (normal[k] / length - zero) / scale);
+  }
+}
+
+/// One input stands for itself: no mean gives back NaN, a negative zero, an integer
+/// that is no double or a normal of another length.
+void MeanRecord::keep(const MeanInput& input, std::byte* out) const
+{
+  if (!input.original)
+  {
+    copyRecord(out, input.record, bytes());
+    return;
+  }
+  copyRecord(out, input.record, recordBytes_);
+  setValue(out + recordBytes_, weightOf(input));
+  setValue(out + recordBytes_ + centreOffset, centreOf(input));
+  for (std::size_t m = 0; m < means_.size(); ++m)
+  {
+    visitScalar(means_[m].type,
+      [&](auto zero)
+      {
+        const auto value = valueAt<decltype(zero)>(input.record + means_[m].offset);
+        setValue(out + meansOffset_ + m * sizeof(double), static_cast<double>(value));
+      });
   }
 }
 
 void MeanRecord::summarise(
   const std::vector<MeanInput>& inputs, std::size_t begin, std::size_t end, std::byte* out)
 {
+  if (end - begin == 1)
+  {
+    keep(inputs[begin], out);
+    return;
+  }
   double weight = 0.0;
   glm::dvec3 centre(0.0);
   for (std::size_t i = begin; i < end; ++i)

@@ -32,6 +32,7 @@ struct MeanInput
 /// Position  the mean of all points of the input below, rounded to the grid.
 /// Columns   the mean of the same points where there is one (hasMean(); NaN does not count, normals
 ///           get length 1), else the value of whatever was summarised nearest to the mean.
+/// One input keeps its values bit for bit, also a normal that has another length.
 /// Radius    of the sphere around the stored position that holds all those points; it also holds
 ///           the spheres of the representatives below. Rounded up.
 /// Threads   one instance a thread.
@@ -58,6 +59,8 @@ private:
     std::size_t offset = 0; ///< offset of the component in the record
     ScalarType type = ScalarType::UInt8;
     bool normal = false; ///< the first of three components that have length 1 together
+    double scale = 1.0; ///< between stored numbers and meant ones
+    double zero = 0.0; ///< meaning of a stored 0
     double sum = 0.0;
     double weight = 0.0;
   };
@@ -69,6 +72,8 @@ private:
     Mean& mean, std::size_t exactOffset, const MeanInput* first, const MeanInput* last) const;
   void addMeans(const MeanInput* first, const MeanInput* last);
   void writeMeans(std::byte* out);
+  void writeUnitNormal(std::size_t first, std::byte* out) const;
+  void keep(const MeanInput& input, std::byte* out) const;
 
   glm::dvec3 stepLength_; ///< length of a tree step on each axis, world units
   TreePosition gridStep_; ///< tree steps between positions that can be stored

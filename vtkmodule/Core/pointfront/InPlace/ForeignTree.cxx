@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cassert>
 #include <chrono>
@@ -58,6 +59,13 @@ std::vector<std::byte> gathered(
   return result;
 }
 
+/// In each component.
+bool hasOneValue(const ColumnRange& range)
+{
+  return std::all_of(range.components.begin(), range.components.end(),
+    [](const std::array<double, 2>& component) { return component[0] >= component[1]; });
+}
+
 bool finite(const glm::dvec3& p)
 {
   return std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) }) <= farthestCoordinate;
@@ -81,12 +89,9 @@ Result<std::shared_ptr<const StoredCloud>> ForeignTree::make(ForeignTreeContent 
   tree->table_ = std::move(*table);
   tree->hierarchy_ = tree->table_;
   tree->describe(content);
-  if (Result<void> looked = tree->lookAtFirstPoints(); !looked)
-  {
-    return looked.error();
-  }
+  const Result<void> looked = tree->lookAtFirstPoints();
   tree->cutBoxes(content.source.declaredBounds, margin);
-  return std::shared_ptr<const StoredCloud>(std::move(tree));
+  return looked ? Result<std::shared_ptr<const StoredCloud>>(std::move(tree)) : looked.error();
 }
 
 /// Down to the box that the file declares, if the points that were looked at keep to it.
@@ -135,8 +140,6 @@ void ForeignTree::describe(const ForeignTreeContent& content)
 Result<void> ForeignTree::lookAtFirstPoints()
 {
   description_.rangesAreSampled = true;
-  ColumnSelection all(description_.schema.size());
-  std::iota(all.begin(), all.end(), 0u);
   const std::vector<ForeignRow>& rows = table_->firstRows();
   std::vector<NodeIndex> looked;
   constexpr std::size_t most = 8;
@@ -155,6 +158,7 @@ Result<void> ForeignTree::lookAtFirstPoints()
   }
   const ReadStop never{ false };
   std::vector<Result<RawBytes>> bytes = reader_->fetchAll(nodes, never);
+  const ColumnSelection all = allColumns();
   for (std::size_t n = 0; n < looked.size(); ++n)
   {
     if (!bytes[n])
@@ -167,22 +171,66 @@ Result<void> ForeignTree::lookAtFirstPoints()
     {
       return decoded;
     }
-    for (std::size_t c = 0; c < all.size(); ++c)
-    {
-      addRange(description_.ranges[c],
-        rangeOf(batch.columns[c].data(), description_.schema[c], batch.size()));
-    }
+    addRanges(batch, all);
     for (const GridPosition& step : stepsOf(batch, description_.grid))
     {
       description_.bounds.add(description_.grid.toWorld(step));
     }
   }
+  lookForColours(nodes, bytes);
   if (!looked.empty())
   {
     first_ = looked.front();
     firstBytes_ = reader_->readCost().far() ? std::move(*bytes.front()) : RawBytes();
   }
   return {};
+}
+
+/// The first points of a node may lie side by side and be of one class or black, and the others
+/// not: columns that decide about colours are looked at as a whole where they seem to have one
+/// value.
+void ForeignTree::lookForColours(
+  const std::vector<ForeignNode>& nodes, const std::vector<Result<RawBytes>>& bytes)
+{
+  ColumnSelection same;
+  for (const char* name : { "rgb", "classification", "intensity" }) // the first that varies decides
+  {
+    const std::optional<std::size_t> column = description_.schema.find(name);
+    if (column && !hasOneValue(description_.ranges[*column]))
+    {
+      break;
+    }
+    if (column)
+    {
+      same.push_back(static_cast<std::uint32_t>(*column));
+    }
+  }
+  for (std::size_t n = 0; n < nodes.size() && !same.empty(); ++n)
+  {
+    PointBatch batch;
+    // Whoever reads a damaged column is told so; others need not care.
+    if (nodes[n].points > mostLookedAt &&
+      reader_->decode({ nodes[n], nodes[n].points, same }, *bytes[n], batch))
+    {
+      addRanges(batch, same);
+    }
+  }
+}
+
+void ForeignTree::addRanges(const PointBatch& batch, const ColumnSelection& columns)
+{
+  for (const std::uint32_t column : columns)
+  {
+    addRange(description_.ranges[column],
+      rangeOf(batch.columns[column].data(), description_.schema[column], batch.size()));
+  }
+}
+
+ColumnSelection ForeignTree::allColumns() const
+{
+  ColumnSelection all(description_.schema.size());
+  std::iota(all.begin(), all.end(), 0u);
+  return all;
 }
 
 Error ForeignTree::damaged(NodeIndex node, const std::string& what) const
@@ -359,6 +407,7 @@ Result<VerifyReport> ForeignTree::verify(const ProgressFunction& progress) const
     report.firstError = read.error().what;
   }
   const std::vector<NodeIndex> nodes = table_->nodes();
+  const ColumnSelection all = allColumns();
   constexpr std::size_t atOnce = 64;
   for (std::size_t first = 0; first < nodes.size() && report.ok; first += atOnce)
   {
@@ -367,7 +416,7 @@ Result<VerifyReport> ForeignTree::verify(const ProgressFunction& progress) const
     ThreadCrew::ofProcess().run(count,
       [&](std::size_t i, unsigned)
       {
-        const Result<NodeColumns> node = read(nodes[first + i], {});
+        const Result<NodeColumns> node = read(nodes[first + i], all);
         faults[i] = node ? "" : node.error().what;
       });
     for (std::size_t i = 0; i < count && report.ok; ++i)

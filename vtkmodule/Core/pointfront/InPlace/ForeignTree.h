@@ -68,13 +68,18 @@ public:
   std::uint64_t disk() const override { return reader_->disk(); }
   ReadCost readCost() const override { return reader_->readCost(); }
   MissingRows* missingRows() const override { return table_->missingRows(); }
-  /// Every node is read: its points are as many as the hierarchy says, and lie in its box.
+  /// Every node is read, with all columns: its points are as many as the hierarchy says, and lie in
+  /// its box.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:
   ForeignTree() = default;
   void describe(const ForeignTreeContent& content);
   Result<void> lookAtFirstPoints();
+  void lookForColours(
+    const std::vector<ForeignNode>& nodes, const std::vector<Result<RawBytes>>& bytes);
+  void addRanges(const PointBatch& batch, const ColumnSelection& columns);
+  ColumnSelection allColumns() const;
   void cutBoxes(const Bounds& declared, const glm::dvec3& margin);
   Result<NodeColumns> decodeNow(const FetchedNode& fetched) const;
   Error damaged(NodeIndex node, const std::string& what) const;

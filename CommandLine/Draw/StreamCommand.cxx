@@ -15,6 +15,7 @@
 #include <cmath>
 #include <cstdio>
 #include <iostream>
+#include <set>
 #include <thread>
 
 namespace pointfront
@@ -54,6 +55,30 @@ Result<bool> readRequest(std::string& line)
     line += static_cast<char>(c);
   }
   return true;
+}
+
+/// Keys that nobody knows would be ignored: whoever misspelt one would never learn why.
+Result<void> checkKeys(const nlohmann::json& request)
+{
+  const std::set<std::string> known{ "camera", "legend", "moving", "pick", "size", "view",
+    "wait_ms" };
+  for (const auto& [key, value] : request.items())
+  {
+    if (known.count(key) == 0)
+    {
+      return badRequest("there is no key \"" + key +
+        "\"; there are camera, legend, moving, pick, size, view and wait_ms");
+    }
+    if ((key == "legend" || key == "moving") && !value.is_boolean())
+    {
+      return badRequest("\"" + key + "\" must be true or false");
+    }
+    if (key == "wait_ms" && !(value.is_number() && value.get<double>() >= 0.0))
+    {
+      return badRequest("\"wait_ms\" must be a number, 0 or more");
+    }
+  }
+  return {};
 }
 
 nlohmann::ordered_json boundsJson(const Bounds& bounds)
@@ -131,13 +156,8 @@ Result<void> StreamCommand::move(const nlohmann::json& request)
     const double aspect = static_cast<double>(drawing_.size[0]) / drawing_.size[1];
     camera_ = cameraFitting(scene_->bounds(), *direction, aspect);
   }
-  const auto moving = request.find("moving");
-  if (moving != request.end() && !moving->is_boolean())
-  {
-    return badRequest("\"moving\" must be true or false");
-  }
   scene_->setCamera(camera_);
-  scene_->setInteractive(moving != request.end() && moving->get<bool>());
+  scene_->setInteractive(request.value("moving", false));
   return {};
 }
 
@@ -249,16 +269,9 @@ Result<void> StreamCommand::obey(const std::string& line)
   {
     return badRequest("a line must be a JSON object");
   }
-  if (const auto wait = request.find("wait_ms"); wait != request.end())
+  if (Result<void> known = checkKeys(request); !known)
   {
-    if (!wait->is_number())
-    {
-      return badRequest("\"wait_ms\" must be a number");
-    }
-    if (!waitForNews(wait->get<double>()))
-    {
-      return answer(nullptr, nlohmann::ordered_json::object());
-    }
+    return known;
   }
   for (const auto step : { &StreamCommand::resize, &StreamCommand::move })
   {
@@ -268,7 +281,7 @@ Result<void> StreamCommand::obey(const std::string& line)
     }
   }
   nlohmann::ordered_json further = nlohmann::ordered_json::object();
-  if (const auto asks = request.find("legend"); asks != request.end() && *asks == true)
+  if (request.value("legend", false))
   {
     further["legend"] = legend();
   }
@@ -282,6 +295,13 @@ Result<void> StreamCommand::obey(const std::string& line)
     further["picked"] = *picked;
     return answer(nullptr, further);
   }
+  const Shown asked{ camera_, drawing_.size, request.value("moving", false) };
+  if (const auto wait = request.find("wait_ms");
+      wait != request.end() && shown_ == asked && !waitForNews(wait->get<double>()))
+  {
+    return answer(nullptr, further);
+  }
+  shown_ = asked;
   const Result<FrameRecord> frame = scene_->renderFrame();
   return frame ? answer(&*frame, further) : frame.error();
 }

@@ -6,7 +6,9 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <array>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pointfront
@@ -24,6 +26,19 @@ public:
   Result<void> run() override;
 
 private:
+  /// A frame looks as these say, besides the points that have arrived.
+  struct Shown
+  {
+    Camera camera;
+    std::array<int, 2> size{};
+    bool moving = false;
+
+    bool operator==(const Shown& other) const
+    {
+      return camera == other.camera && size == other.size && moving == other.moving;
+    }
+  };
+
   Result<void> obey(const std::string& line);
   Result<void> resize(const nlohmann::json& request);
   Result<void> move(const nlohmann::json& request);
@@ -38,6 +53,7 @@ private:
   DrawingOptions drawing_;
   std::unique_ptr<SoftwareScene> scene_;
   Camera camera_;
+  std::optional<Shown> shown_; ///< by the last frame
   bool settled_ = false; ///< when it was last waited: nothing was on its way
 };
 

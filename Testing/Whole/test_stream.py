@@ -236,12 +236,32 @@ class Streams(tool.ToolTest):
         self.assertEqual((answer["bytes"], answer["settled"]), (0, True))
         self.assertEqual(stream.end()[0], 0)
 
+    def test_a_view_that_changes_is_drawn_whatever_it_waits_for(self):
+        stream = self.open()
+        iso, first = stream.settle(size=[64, 48])
+        for request in ({"view": "top"}, {"size": [128, 96]}, {"camera": iso["camera"]},
+                        {"moving": True}, {"moving": False}):
+            answer, _ = stream.ask(wait_ms=10, **request)
+            self.assertEqual(answer["bytes"], 4 * answer.get("width", 0) * answer.get("height", 0))
+            self.assertGreater(answer["bytes"], 0, request)
+            answer, _ = stream.settle(**request)
+            again, _ = stream.ask(wait_ms=10, **request)
+            self.assertEqual((again["bytes"], again["settled"]), (0, True), request)
+        _, back = stream.settle(size=[64, 48], wait_ms=10)
+        self.assertEqual(back, first)
+        answer, _ = stream.ask(wait_ms=10, legend=True)
+        self.assertEqual(answer["bytes"], 0)
+        self.assertIn("legend", answer)
+        self.assertIn("picked", stream.ask(wait_ms=10, pick=[32, 24])[0])
+        self.assertEqual(stream.end(), (0, ""))
+
     def test_wrong_requests_end_it(self):
         for line, says in (("{", "JSON object"), ("[]", "JSON object"),
                            ('{"size": [0, 5]}', "size"), ('{"size": [9000, 5]}', "size"),
                            ('{"size": 5}', "size"), ('{"view": "sideways"}', "view"),
                            ('{"moving": 1}', "moving"), ('{"wait_ms": "long"}', "wait_ms"),
-                           ('{"pick": 3}', "pick"), ('{"pick": ["a", 1]}', "pick"),
+                           ('{"wait_ms": -5}', "wait_ms"), ('{"wait": 5}', '"wait"'),
+                           ('{"legend": 1}', "legend"), ('{"pick": 3}', "pick"), ('{"pick": ["a", 1]}', "pick"),
                            ('{"camera": {}}', "position")):
             stream = self.open()
             answer, _ = stream.send(line)

@@ -94,6 +94,19 @@ public:
     }
   }
 
+  void copied(const std::byte* value) const override
+  {
+    if (values_.normal)
+    {
+      PackedNormal normal;
+      std::memcpy(&normal, value, sizeof normal);
+      if (normal == PackedNormal(0))
+      {
+        ++without_;
+      }
+    }
+  }
+
 private:
   /// So many points of a list that has the nearest first.
   static std::vector<NearPoint> nearestOf(const std::vector<NearPoint>& near, std::uint32_t wanted)

@@ -24,6 +24,7 @@ public:
     for (const auto& source : sources)
     {
       descriptions_.push_back(source->description());
+      counted_.emplace_back(source->chunkCount());
     }
   }
 
@@ -53,7 +54,10 @@ public:
       without += normal == PackedNormal(0) ? 1 : 0;
       std::memcpy(values + taking[i] * sizeof normal, &normal, sizeof normal);
     }
-    *without_ += without;
+    if (without > 0 && !counted_[chunk.source][chunk.chunk].exchange(true))
+    {
+      *without_ += without;
+    }
   }
 
 private:
@@ -61,6 +65,8 @@ private:
   std::shared_ptr<std::atomic<std::uint64_t>> without_;
   // By source, of the originals: the columns of the batch come first in the new schema too.
   std::vector<SourceDescription> descriptions_;
+  /// By source and chunk: a build reads its sources more than once.
+  mutable std::vector<std::vector<std::atomic<bool>>> counted_;
 };
 } // namespace
 
@@ -87,6 +93,7 @@ Result<PointSources> ScanNormalsPass::apply(PointSources sources, const PassReso
   {
     return classes.error();
   }
+  *without_ = 0;
   const auto normals = std::make_shared<const ChunkNormals>(sources, *classes, without_);
   const ValueSource values = [normals](const SourceChunk& chunk, const PointBatch& batch,
                                std::byte* out) -> Result<void>

@@ -261,7 +261,8 @@ class Streams(tool.ToolTest):
                            ('{"size": 5}', "size"), ('{"view": "sideways"}', "view"),
                            ('{"moving": 1}', "moving"), ('{"wait_ms": "long"}', "wait_ms"),
                            ('{"wait_ms": -5}', "wait_ms"), ('{"wait": 5}', '"wait"'),
-                           ('{"legend": 1}', "legend"), ('{"pick": 3}', "pick"), ('{"pick": ["a", 1]}', "pick"),
+                           ('{"legend": 1}', "legend"), ('{"pick": 3}', "pick"),
+                           ('{"pick": ["a", 1]}', "pick"),
                            ('{"camera": {}}', "position")):
             stream = self.open()
             answer, _ = stream.send(line)

@@ -178,12 +178,17 @@ TEST(NormalsPass, WithoutAPlaneThereIsNoNormal)
     const std::vector<std::string> findings = pass.findings();
     EXPECT_EQ(findings.size(), zeros > 0 ? 1u : 0u);
     EXPECT_EQ(zeros == 1, !findings.empty() && findings[0].find("1 point has") == 0);
+    EXPECT_TRUE(zeros < 2 || findings[0].find(std::to_string(zeros) + " points have") == 0)
+      << findings[0];
     return zeros;
   };
   EXPECT_EQ(without({}), 0u);
   EXPECT_EQ(without({ { 1.0, 2.0, 3.0 } }), 1u);
   EXPECT_EQ(without({ { 1.0, 2.0, 3.0 }, { 4.0, 2.0, 3.0 } }), 2u);
   EXPECT_EQ(without(Positions(1000, { 1e7, 2.0, 3.0 })), 1000u); // coincident
+  Positions pairs(2, { 1.0, 2.0, 3.0 });
+  pairs.insert(pairs.end(), 3, { 4.0, 2.0, 3.0 });
+  EXPECT_EQ(without(pairs), 5u);
   Positions line;
   for (int i = 0; i < 1000; ++i)
   {

@@ -72,6 +72,22 @@ TEST(ScanNormals, WithoutATriangleThereIsNone)
   }
 }
 
+TEST(ScanNormals, PointsWithoutOneAreCountedOnceHoweverOftenTheyAreRead)
+{
+  const ScanNormalsPass pass(std::nullopt);
+  for (int build = 0; build < 2; ++build)
+  {
+    const auto sources = pass.apply(sourcesOf(Positions(2500, glm::dvec3(7.0))), {});
+    ASSERT_TRUE(sources) << sources.error().what;
+    for (int reading = 0; reading < 3; ++reading)
+    {
+      EXPECT_EQ(attributeOf<PackedNormal>(*sources, "normal").size(), 2500u);
+    }
+    ASSERT_EQ(pass.findings().size(), 1u);
+    EXPECT_EQ(pass.findings()[0].find("2500 points have no normal"), 0u) << pass.findings()[0];
+  }
+}
+
 TEST(ScanNormals, OnGeneratedGroundTheyAreCoarserThanPCA)
 {
   // Up to 2 cm of noise, and neighbours that are 0 to 60 cm apart.

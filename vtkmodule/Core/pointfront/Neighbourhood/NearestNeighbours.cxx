@@ -230,7 +230,9 @@ void Search::searchRun(
     const glm::dvec3& position = work.points[i].position;
     if (before != nullptr && work.points[*before].position == position) // a duplicate
     {
-      std::memcpy(work.values.data() + i * bytes, work.values.data() + *before * bytes, bytes);
+      const std::byte* const value = work.values.data() + *before * bytes;
+      std::memcpy(work.values.data() + i * bytes, value, bytes);
+      feature_.copied(value);
       work.finished[i] = true;
       continue;
     }

@@ -19,7 +19,8 @@ struct NearPoint
   std::uint32_t count = 1;
 };
 
-/// A value that is computed for a point from its neighbours. Threads: compute() from any.
+/// A value that is computed for a point from its neighbours. Threads: compute() and copied() from
+/// any.
 class NeighbourhoodFeature
 {
 public:
@@ -33,6 +34,8 @@ public:
   /// more.
   virtual void compute(
     const glm::dvec3& position, const std::vector<NearPoint>& near, std::byte* value) const = 0;
+  /// Another point lies where one was computed, and got a copy of its value. For those who count.
+  virtual void copied(const std::byte* /*value*/) const {}
 };
 
 /// Makes the search structure over the places of a tile.

@@ -136,6 +136,13 @@ CLI::Validator numberBetween(double low, double high)
   return CLI::Validator(check, "FLOAT in [" + limits.str() + "]");
 }
 
+CLI::Validator someWords(const std::string& hint)
+{
+  return CLI::Validator([hint](const std::string& text)
+    { return splitList(text).empty() ? "'" + text + "' names nothing; " + hint : std::string(); },
+    "");
+}
+
 CLI::Validator wholeNumber()
 {
   const auto check = [](std::string& text) -> std::string

@@ -13,6 +13,10 @@ namespace pointfront
 
 /// Values of options that are more than a number. Each parser gives nothing for wrong text.
 
+/// An empty condition comes of a script's unset variable, and would take all points.
+inline constexpr const char* noCondition =
+  "the condition is empty; leave --where out if all points are meant";
+
 /// "2,6,9" -> the words between the commas; empty words are left out.
 std::vector<std::string> splitList(const std::string& text);
 /// "1,2.5,-3" -> exactly N finite numbers.
@@ -28,6 +32,8 @@ CLI::Validator positiveNumber();
 /// Check for an option with a smallest and a largest value; what is no number is refused, "nan"
 /// too.
 CLI::Validator numberBetween(double low, double high);
+/// Check for a list that names something: a script's unset variable does not.
+CLI::Validator someWords(const std::string& hint);
 /// Transformation for an option that counts: decimal digits, at most 15, of these or of "1e6".
 CLI::Validator wholeNumber();
 

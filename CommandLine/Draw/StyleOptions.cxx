@@ -158,9 +158,9 @@ StyleSheet makeStyle(const CLI::App& app, const StyleArguments& arguments, Drawi
     sheet.standard.light->on = *options.lit;
   }
   const Result<FilterExpression> where = FilterExpression::parse(arguments.where);
-  if (!where)
+  if (!where || (where->empty() && app.count("--where") > 0))
   {
-    throw wrong("--where", where.error().what);
+    throw wrong("--where", where ? noCondition : where.error().what);
   }
   sheet.where = joined(sheet.where, *where);
   return sheet;

@@ -48,6 +48,7 @@ void BuildCommand::declare(CLI::App& program)
     ->check(positiveNumber())
     ->type_name("METRES");
   app_->add_option("--attributes", attributes_, "Attributes to store: all, or names (all)")
+    ->check(someWords("write all, or names as intensity,rgb"))
     ->type_name("all|LIST");
   addByteSize(*app_, "--memory", options_.memoryBytes,
     "Most memory for points; beyond it they are spilled to disk (half of the machine's)");

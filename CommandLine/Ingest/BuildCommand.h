@@ -28,6 +28,7 @@ private:
   Result<void> buildTiles();
   /// The options that decide about the bytes of tiles, as they were given.
   nlohmann::json tileSettings() const;
+  Result<void> runAll(TilesBuild& build);
   /// One step of --only, and what it prints.
   Result<void> runStep(TilesBuild& build);
   Result<void> tell(const TilesReport& report) const;

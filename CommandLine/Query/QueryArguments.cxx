@@ -100,6 +100,10 @@ void QueryArguments::declareConditions(CLI::App& app)
     {
       throw CLI::ParseError("--where: " + expression.error().what, 2);
     }
+    if (expression->empty())
+    {
+      throw CLI::ParseError(std::string("--where: ") + noCondition, 2);
+    }
     query_.where = std::move(*expression);
     return true;
   };

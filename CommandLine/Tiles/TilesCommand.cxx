@@ -113,10 +113,18 @@ Result<void> BuildCommand::buildTiles()
   request.warn = [this](const std::string& text) { warn(name(), text); };
   request.progress = display.function();
   TilesBuild build(std::move(request));
-  if (!only_.empty())
+  const Result<void> done = only_.empty() ? runAll(build) : runStep(build);
+  if (!done && done.error().kind == Error::Kind::Cancelled)
   {
-    return runStep(build);
+    return makeError(Error::Kind::Cancelled,
+      "stopped; finished tiles, the plan and the surveys stay in '" + options_.outputPath +
+        "', and the same command goes on" + (options_.overwrite ? " if it has no --force" : ""));
   }
+  return done;
+}
+
+Result<void> BuildCommand::runAll(TilesBuild& build)
+{
   const Result<TilesReport> report = build.all();
   return report ? tell(*report) : Result<void>(report.error());
 }

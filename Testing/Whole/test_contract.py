@@ -148,6 +148,21 @@ class Usage(ToolTest):
             self.refuse(2, "export", "store.pfront", "-o", self.folder / name)
         self.assertEqual(self.entries(), [])
 
+    def test_an_empty_choice_is_neither_everything_nor_nothing(self):
+        store = self.build(SMALL)
+        export = ("export", store, "-o", self.folder / "x.las")
+        render = ("render", store, "-o", self.folder / "x.png")
+        for words, says in (((*export, "--where", ""), "--where: the condition is empty"),
+                            ((*export, "--where", "  "), "--where: the condition is empty"),
+                            ((*render, "--where", ""), "--where: the condition is empty"),
+                            (("build", SMALL, "-o", self.folder / "x.pfront", "--attributes", ""),
+                             "--attributes: '' names nothing"),
+                            (("build", SMALL, "-o", self.folder / "x.pfront", "--attributes", ","),
+                             "--attributes: ',' names nothing"),
+                            ((*export, "--classes", ""), "--classes")):
+            self.assertIn(says, self.refuse(2, *words).err)
+        self.assertEqual(self.entries(), ["cloud.pfront"])
+
     def test_render_flags(self):
         wrong = [
             ("--size", "big"), ("--view", "below"), ("--error", "0"), ("--point-size", "0"),

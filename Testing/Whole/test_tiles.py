@@ -221,6 +221,8 @@ class Restart(ToolTest):
         rest = process.stderr.read()
         self.assertEqual(process.wait(), 130, rest)
         process.stderr.close()
+        self.assertNotIn("nothing was written", rest)
+        self.assertIn("the same command goes on", rest)
         self.assertFalse(list((self.folder / "land/tiles").glob("*.part*")))
         done = self.succeed(*self.arguments("land")).json
         self.assertLessEqual(done["tiles_built"], done["tiles"] - 2)

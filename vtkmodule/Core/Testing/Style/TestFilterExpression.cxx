@@ -61,6 +61,22 @@ TEST(FilterExpression, WholeNumbersOf64BitsAreTakenExactly)
   EXPECT_EQ(only("a in {9007199254740993, 9007199254740992}").values.size(), 2u);
   EXPECT_EQ(only("a < 18446744073709551616").range[1], 18446744073709551616.0L); // a double
   EXPECT_EQ(only("a == 0.1").values.front(), static_cast<ConditionNumber>(0.1)); // a double
+  EXPECT_EQ(only("a == 4611686018427387905.0").values.front(),
+    static_cast<ConditionNumber>(4611686018427387905));
+  EXPECT_EQ(only("a == -9007199254740993.").values.front(),
+    static_cast<ConditionNumber>(-9007199254740993));
+}
+
+TEST(FilterExpression, FractionsThatNoDoubleHoldsAreRefused)
+{
+  EXPECT_EQ(failure("a > -1152921504606846975.5"),
+    "'a > -1152921504606846975.5', character 5: expected a whole number, as a double of that size "
+    "has no fraction, not '-115292150460684'");
+  EXPECT_NE(failure("a in {1, 4503599627370496.25}").find("character 10"), std::string::npos);
+  EXPECT_EQ(only("a > -4503599627370495.5").range[0], -4503599627370495.5L);
+  EXPECT_EQ(only("a < 1.5e300").range[1], static_cast<ConditionNumber>(1.5e300));
+  EXPECT_EQ(
+    only("a < 1.1529215046068472e+18").range[1], static_cast<ConditionNumber>(1152921504606847232));
 }
 
 TEST(FilterExpression, SetsAreSortedAndComparisonsAreRanges)
@@ -86,6 +102,20 @@ TEST(FilterExpression, ConditionsAreJoinedByAnd)
   EXPECT_EQ(filter->terms[1].name, "my value");
   EXPECT_EQ(filter->terms[2].name, "android");
   EXPECT_TRUE(FilterExpression::parse("  ")->empty());
+}
+
+TEST(FilterExpression, AQuotedNameIsNoKeyWord)
+{
+  const auto filter =
+    FilterExpression::parse(R"("and" > 5 and "in" in {1} and "not" not in {2} and "AND"==3)");
+  ASSERT_TRUE(filter) << filter.error().what;
+  ASSERT_EQ(filter->terms.size(), 4u);
+  EXPECT_EQ(filter->terms[0].name, "and");
+  EXPECT_EQ(filter->terms[1].name, "in");
+  EXPECT_EQ(filter->terms[3].name, "AND");
+  EXPECT_EQ(failure("in > 5"),
+    "'in > 5', character 1: expected the name of an attribute, or \"in\" in quotes, not 'in > 5'");
+  EXPECT_NE(failure(R"("" > 5)").find("character 1: expected the name"), std::string::npos);
 }
 
 TEST(FilterExpression, MistakesAreNamedWithTheirPlace)

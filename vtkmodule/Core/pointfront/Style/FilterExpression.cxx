@@ -20,6 +20,14 @@ bool isSpace(char c)
   return c == ' ' || c == '\t' || c == '\n' || c == '\r';
 }
 
+bool isExponent(char c)
+{
+  return c == 'e' || c == 'E';
+}
+
+/// Doubles from here on are whole numbers.
+constexpr double leastWithoutFraction = 4503599627370496.0;
+
 bool isWord(char c)
 {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
@@ -146,8 +154,12 @@ private:
         ++at_;
       }
       term.name = text_.substr(begin, at_ - begin);
+      if (sameWithoutCase(term.name, "and") || sameWithoutCase(term.name, "in"))
+      {
+        fail("expected the name of an attribute, or \"" + term.name + "\" in quotes", begin);
+      }
     }
-    if (term.name.empty() || sameWithoutCase(term.name, "and") || sameWithoutCase(term.name, "in"))
+    if (term.name.empty())
     {
       fail("expected the name of an attribute", term.position);
     }
@@ -189,7 +201,16 @@ private:
       return 0.0;
     }
     at_ = static_cast<std::size_t>(stop - text_.data());
-    return wholeNumber(from, stop).value_or(number);
+    const char* whole = stop;
+    if (std::abs(number) >= leastWithoutFraction && std::none_of(from, stop, isExponent))
+    {
+      whole = std::find(from, stop, '.');
+      if (std::any_of(whole, stop, [](char c) { return c >= '1' && c <= '9'; }))
+      {
+        fail("expected a whole number, as a double of that size has no fraction", begin);
+      }
+    }
+    return wholeNumber(from, whole).value_or(number);
   }
 
   void readRange(AttributeCondition& condition, bool lowOpen)

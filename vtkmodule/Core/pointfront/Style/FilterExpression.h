@@ -33,11 +33,11 @@ struct FilterTerm
 /// Names    of attributes without regard to case, "-" for "_"; a component as rgb[0] or normal.z;
 ///          x, y, z and elevation are coordinates unless the store has an attribute of that name;
 ///          likewise horizontality and global_height are derived (PointColouring.h).
-///          Names with spaces stand in "double quotes".
+///          Names with spaces stand in "double quotes", and so do those called and or in.
 /// Units    world values: after the attribute's scale and offset, metres of the store's system.
 /// Numbers  as in C, without regard to the locale; inf and -inf too. NaN never passes. Whole
-/// numbers
-///          of 64 bits are taken exactly (AttributeCondition).
+///          numbers of 64 bits are taken exactly (AttributeCondition); a fraction is refused where
+///          doubles have none, from 2^52 on.
 /// Threads  a value.
 struct FilterExpression
 {

@@ -15,7 +15,8 @@ class Cloud:
     Stores, COPC, EPT and lists may lie behind an address of http, https or s3.
 
     path        as it was found; an address without user, password and query
-    bounds      ((x0, y0, z0), (x1, y1, z1)) in the units of the coordinate system, tight
+    bounds      ((x0, y0, z0), (x1, y1, z1)) in the units of the coordinate system: tight for stores
+                and indices; of COPC and EPT the box that the file names, which may be larger
     attributes  names
     classes     {number: name} of object classes with a tree of their own
     info        what `pointfront info --json` tells, as a dictionary; of a folder as of one cloud

@@ -201,7 +201,7 @@ class Cloud:
 
         Returns how many points were written. What was wrong and survived is a PointFrontWarning.
         Raises PointFrontError, and ValueError and TypeError as points() does; KeyboardInterrupt,
-        with nothing left behind.
+        with nothing left behind unless the file was complete by then.
         """
         self._opened()
         conditions = Conditions(self, box, sphere, None, classes, where, spacing, None)

@@ -1,10 +1,11 @@
 """The kernel in this process, by the C functions of Kernel/PlainInterface.h: no VTK."""
 
+import _thread
 import ctypes
 import json
 import os
 import pathlib
-import threading
+import queue
 
 import numpy
 
@@ -76,43 +77,50 @@ class _Stopped(PointFrontError):
 
 
 class _Call:
-    """A call of the kernel in a thread of its own; the caller's hears of it, and Ctrl-C."""
+    """A call of the kernel in a thread of its own; the caller's hears of it, and Ctrl-C.
+
+    The caller's thread waits in C alone, where an interrupt strikes before or after: inside of
+    Thread.start() or Event.wait() it leaves their locks as they are, and the work runs on.
+    """
 
     def __init__(self, function):
-        self._changed = threading.Event()
+        self._function = function
+        self._changed = queue.SimpleQueue()
         self._latest = None
         self._stopped = False
+        self._began = False
         self._ended = False
         self._problem = None
         self._answer = None
         self.phase = ""
-        # The thread holds what the kernel calls, and lets go of it at its end: it refers to this.
-        self._thread = threading.Thread(target=self._work, args=(function, PROGRESS(self._take)),
-                                        daemon=True)
 
     def _take(self, phase, fraction):
         self._latest = phase.decode(errors="replace"), fraction
-        self._changed.set()
+        self._changed.put(None)
         return 0 if self._stopped else 1
 
-    def _work(self, function, report):
+    def _work(self):
+        self._began = True  # before it looks, as run() stops it before it looks
+        function, self._function = self._function, None
         try:
-            self._answer = function(report)
+            if not self._stopped:
+                self._answer = function(PROGRESS(self._take))
         except BaseException as problem:
             self._problem = problem
+        del function  # the caller goes on before this thread has ended
         self._ended = True
-        self._changed.set()
+        self._changed.put(None)
 
     def run(self, receive):
         """Calls `receive` with (phase, fraction) from this thread, whose False ends the work."""
         raised = None
         ended = False
         try:
-            self._thread.start()
+            _thread.start_new_thread(self._work, ())
             while not ended:
                 try:
-                    self._changed.wait()
-                    self._changed.clear()
+                    if not self._ended:
+                        self._changed.get()
                     ended = self._ended
                     latest, self._latest = self._latest, None
                     if latest is not None and not self._stopped:
@@ -123,13 +131,14 @@ class _Call:
                     self._stopped = True
         finally:  # an interrupt that strikes between the lines above
             self._stopped = True
-            if self._thread.is_alive():  # an interrupt may have kept it from starting
-                self._thread.join()
+            while self._began and not self._ended:
+                self._changed.get()
         if raised is not None:
             raise raised
         if self._problem is not None:
             raise self._problem
-        return self._answer
+        answer, self._answer = self._answer, None
+        return answer
 
 
 def call(function, progress, stopped):

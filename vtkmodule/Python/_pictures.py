@@ -11,10 +11,11 @@ import zlib
 
 import numpy
 
-from . import _far
+from . import _far, _kernel
 from ._errors import PointFrontError, warn
 from ._host import TOOL
 
+_LOOK_SECONDS = 0.02  # for an interrupt, while the tool runs
 _SIGNATURE = b"\x89PNG\r\n\x1a\n"
 
 
@@ -71,23 +72,34 @@ def _rows_of(png):
     return width, height, 3 if kind == 2 else 4, zlib.decompress(b"".join(data))
 
 
+def _ended(arguments, report):
+    """The tool when it has ended, what it printed and what it said. Once `report` answers 0, it is
+    asked to end, and leaves nothing behind.
+    """
+    tool = subprocess.Popen([TOOL, *map(str, arguments)], stdin=subprocess.DEVNULL,
+                            stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                            env=_far.environment(arguments))
+    asked = False
+    while True:
+        try:
+            return tool, *tool.communicate(timeout=_LOOK_SECONDS)
+        except subprocess.TimeoutExpired:
+            if not asked and report(b"", 0.0) == 0:
+                tool.send_signal(signal.SIGINT)
+                asked = True
+
+
 def run_tool(arguments, heard=None):
     """Returns what the tool prints. Raises PointFrontError with what it says; Ctrl-C ends it, too.
 
     heard  called with what it says while it succeeds
     """
     try:
-        tool = subprocess.Popen([TOOL, *map(str, arguments)], stdin=subprocess.DEVNULL,
-                                stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                env=_far.environment(arguments))
+        # An interrupt strikes this thread, and finds no other in the middle of starting a process.
+        tool, output, said = _kernel.call(
+            lambda report: _ended(arguments, report), None, "the tool was stopped")
     except OSError as problem:
         raise PointFrontError(f"the tool cannot be run: {problem}") from None
-    try:
-        output, said = tool.communicate()
-    except BaseException:  # an interrupt: the tool leaves nothing behind when it is asked to end
-        tool.send_signal(signal.SIGINT)
-        tool.wait()
-        raise
     if tool.returncode != 0:
         text = said.decode(errors="replace").strip()
         raise PointFrontError(text or f"the tool ended with status {tool.returncode}")

@@ -1,5 +1,6 @@
 """Clouds by their address: points, pictures and files are those of the local file."""
 
+import _thread
 import json
 import multiprocessing
 import os
@@ -252,7 +253,7 @@ class Addresses(unittest.TestCase):
     def test_an_interrupt_while_a_thread_starts_ends_its_work(self):
         """Signals come anywhere: here the work has begun, and its starter does not know it yet."""
         begun, over = threading.Event(), threading.Event()
-        start = threading.Thread.start
+        start = _thread.start_new_thread
 
         def work(report):
             begun.set()
@@ -260,15 +261,36 @@ class Addresses(unittest.TestCase):
                 time.sleep(0.01)
             over.set()
 
-        def interrupted(thread):
-            start(thread)
+        def interrupted(function, arguments):
+            start(function, arguments)
             begun.wait()
             raise KeyboardInterrupt
 
-        with unittest.mock.patch.object(threading.Thread, "start", interrupted):
+        with unittest.mock.patch("_thread.start_new_thread", interrupted):
             with self.assertRaises(KeyboardInterrupt):
                 _kernel.call(work, None, "stopped")
         self.assertTrue(over.wait(LIMIT_SECONDS))
+
+    def test_an_interrupt_before_a_thread_starts_keeps_it_from_its_work(self):
+        """Its thread gets its turn when nobody waits for it any more."""
+        over = threading.Event()
+        start = _thread.start_new_thread
+        work = unittest.mock.Mock()
+
+        def late(function, arguments):
+            def run():
+                time.sleep(0.1)
+                function(*arguments)
+                over.set()
+
+            start(run, ())
+            raise KeyboardInterrupt
+
+        with unittest.mock.patch("_thread.start_new_thread", late):
+            with self.assertRaises(KeyboardInterrupt):
+                _kernel.call(work, None, "stopped")
+        self.assertTrue(over.wait(LIMIT_SECONDS))
+        work.assert_not_called()
 
     def test_errors_are_raised_without_secrets(self):
         for weather, words in (("~forbidden/", "403"), ("none/", "404"), ("~gzipped/", "compress")):

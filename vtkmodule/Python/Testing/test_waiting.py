@@ -125,6 +125,47 @@ class Waiting(unittest.TestCase):
             self.assertEqual(len(cloud.points(classes=2, attributes=[])["id"]),
                              len(cloud.points(where="classification == 2", attributes=[])["id"]))
 
+    def interrupted(self, work, after):
+        """Interrupts this process alone after so many seconds; how many the work went on then."""
+        signal.signal(signal.SIGINT, signal.default_int_handler)
+        began, sent = [], []
+
+        def interrupt():
+            while not began:  # an Event would be a lock that the interrupt may strike
+                time.sleep(0.0005)
+            time.sleep(after)
+            sent.append(time.monotonic())
+            os.kill(os.getpid(), signal.SIGINT)
+
+        thread = threading.Thread(target=interrupt)
+        thread.start()
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                began.append(True)
+                work()
+        finally:
+            ended = time.monotonic()
+            thread.join()
+        return ended - sent[0]
+
+    def assert_nothing_is_left(self, folder):
+        self.assertEqual(list(folder.iterdir()), [])
+        with self.assertRaises(ChildProcessError, msg="a tool runs on"):
+            os.waitpid(-1, os.WNOHANG)
+
+    def test_an_interrupt_stops_a_file_and_a_picture(self):
+        """At once, wherever it strikes: no file and no process stays behind."""
+        made = pathlib.Path(self.folder) / "made"
+        made.mkdir()
+        with pointfront.open(self.store) as cloud:
+            for work in (lambda: cloud.export(made / "a.laz"),
+                         lambda: cloud.screenshot(made / "a.png", error=0.1)):
+                seconds = []
+                for after in (*numpy.linspace(0.0, 0.004, 20), 0.01, 0.03, 0.1):
+                    seconds.append(self.interrupted(work, after))
+                    self.assert_nothing_is_left(made)
+                self.assertLess(min(seconds), 0.2)  # a machine may be busy
+
     def test_points_are_in_memory_once(self):
         code = ("import resource, sys, pointfront\n"
                 "cloud = pointfront.open(sys.argv[1])\n"

@@ -10,7 +10,7 @@ import queue
 import numpy
 
 from ._errors import PointFrontError, warn
-from ._progress import receiving
+from ._progress import ends, receiving
 
 _BYTES = ctypes.c_char_p
 _DOUBLES = ctypes.POINTER(ctypes.c_double)
@@ -125,7 +125,7 @@ class _Call:
                     latest, self._latest = self._latest, None
                     if latest is not None and not self._stopped:
                         self.phase = latest[0]
-                        self._stopped = receive(*latest) is False
+                        self._stopped = ends(receive(*latest))
                 except BaseException as problem:  # the receiver's, or Ctrl-C
                     raised = raised or problem
                     self._stopped = True
@@ -148,7 +148,7 @@ def call(function, progress, stopped):
     """
     with receiving(progress) as receive:
         try:
-            if receive("", 0.0) is False:
+            if ends(receive("", 0.0)):
                 raise _Stopped()
             work = _Call(function)
             answer = work.run(receive)

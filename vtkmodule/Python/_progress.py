@@ -4,7 +4,16 @@ import contextlib
 import signal
 import threading
 
+import numpy
+
 from ._errors import PointFrontError
+
+
+def ends(answer):
+    """Whether a receiver of progress ends the work: by Python's or NumPy's False, and by nothing
+    else, as print() and write() answer, too.
+    """
+    return isinstance(answer, (bool, numpy.bool_)) and not answer
 
 
 class Watch:
@@ -33,7 +42,7 @@ class Watch:
 
     def _report(self, caller, _event):
         try:
-            if self._progress(caller.GetProgressText() or "", caller.GetProgress()) is False:
+            if ends(self._progress(caller.GetProgressText() or "", caller.GetProgress())):
                 caller.AbortExecuteOn()
         except BaseException as problem:  # VTK prints what an observer raises, and goes on
             self._stop(problem)

@@ -239,6 +239,22 @@ class Package(unittest.TestCase):
                 cloud.points(progress=lambda *_: False)
             self.assert_another_thread_runs(10, cloud.points)
 
+    def test_a_false_of_numpy_stops_as_pythons_does(self):
+        """None and other values do not: what print() or list.append() returns, for instance."""
+        store = self.folder / "a.pfront"
+        pointfront.build(SMALL, store, preview=False)
+        with pointfront.open(store) as cloud:
+            for false in (False, numpy.False_):
+                for work in (cloud.points, cloud.extract,
+                             lambda **options: pointfront.build(
+                                 SMALL, self.folder / "b.pfront", **options)):
+                    with self.assertRaisesRegex(pointfront.PointFrontError, "stopped"):
+                        work(progress=lambda *_, answer=false: answer)
+                self.assertFalse((self.folder / "b.pfront").exists())
+            for other in (None, True, numpy.True_, 0, 0.0, ""):
+                points = cloud.points(progress=lambda *_, answer=other: answer)
+                self.assertEqual(len(points["id"]), 1065)
+
     def test_a_watched_query_leaves_nothing_behind(self):
         """No circle of references holds its arrays until Python looks for circles."""
         store = self.folder / "a.pfront"

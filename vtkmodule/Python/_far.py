@@ -79,11 +79,11 @@ def with_settings(address, offline, cache, cache_size, timeout):
     if offline is not None:
         words["offline"] = int(bool(offline))
     if cache is not None:
-        words["cache"] = "off" if cache is False else os.path.abspath(os.fsencode(cache))
+        words["cache"] = "off" if cache is False else _kernel.path_of(os.path.abspath(cache))
     if cache_size is not None:
-        words["cache_size"] = cache_size
+        words["cache_size"] = _kernel.whole(str(cache_size))
     if timeout is not None:
-        words["timeout"] = timeout
+        words["timeout"] = _kernel.whole(str(timeout))
     if not words:
         return address
     if not is_address(address):

@@ -184,14 +184,29 @@ def _arrays(answer):
     return made, answer["warnings"]
 
 
+def whole(text):
+    """The bytes of a path or a text that C is given. It would take a zero byte as their end, and
+    drop the rest: a ValueError, as of Python's own open().
+    """
+    data = text.encode(errors="surrogateescape") if isinstance(text, str) else text
+    if b"\0" in data:
+        raise ValueError("embedded null byte")
+    return data
+
+
+def path_of(path):
+    """The bytes of a path for C."""
+    return whole(os.fsencode(path))
+
+
 def learn_credentials(text):
     """The text of POINTFRONT_FAR, for this process."""
-    _answer(_library.pointfrontCredentials(text.encode()))
+    _answer(_library.pointfrontCredentials(whole(text)))
 
 
 def public_form(address):
     """The address without what is secret, under which this process knows it from now on."""
-    return _answer(_library.pointfrontPublicForm(os.fsencode(address)))
+    return _answer(_library.pointfrontPublicForm(path_of(address)))
 
 
 def traffic():
@@ -209,7 +224,7 @@ class StoredCloud:
     """
 
     def __init__(self, path):
-        self._path = os.fsencode(path)
+        self._path = path_of(path)
         self._open()
 
     def _open(self):
@@ -240,6 +255,15 @@ class StoredCloud:
             _library.pointfrontClose(self._handle)
 
 
+def _as_bytes(value):
+    """A request whose texts have a character for each byte, as paths need not be UTF-8."""
+    if isinstance(value, dict):
+        return {name: _as_bytes(held) for name, held in value.items()}
+    if isinstance(value, list):
+        return [_as_bytes(held) for held in value]
+    return whole(value).decode("latin-1") if isinstance(value, str) else value
+
+
 def build(request, arrays, progress):
     """The answer of pointfrontBuild(); `arrays` None, or (places, {name: column})."""
     given, points = [], 0
@@ -247,11 +271,10 @@ def build(request, arrays, progress):
         places, columns = arrays
         points = len(places)
         given.append(_Array(None, places.ctypes.data, _TYPES["float64"], 3))
-        given += [_Array(name.encode(), column.ctypes.data, _TYPES[column.dtype.name],
+        given += [_Array(whole(name.encode()), column.ctypes.data, _TYPES[column.dtype.name],
                          1 if column.ndim == 1 else column.shape[1])
                   for name, column in columns.items()]
-    text = json.dumps(request, allow_nan=False, ensure_ascii=False)
-    text = text.encode(errors="surrogateescape").decode("latin-1").encode()  # paths are bytes
+    text = json.dumps(_as_bytes(request), allow_nan=False, ensure_ascii=False).encode()
     return call(
         lambda report: _answer(_library.pointfrontBuild(
             text, (_Array * len(given))(*given), len(given), points, report)),
@@ -264,7 +287,8 @@ def class_names():
 
 
 def index(las, side, overwrite, node_points, progress=None):
+    las, target = path_of(las), path_of(side)
     return call(
         lambda report: _answer(_library.pointfrontIndex(
-            os.fsencode(las), os.fsencode(side), int(overwrite), node_points, report)),
+            las, target, int(overwrite), node_points, report)),
         progress, f"{side}: the indexing was stopped")

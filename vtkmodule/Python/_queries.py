@@ -72,13 +72,15 @@ def _spacing_of(spacing):
 
 
 def _text_of(name, text):
-    if text is not None and not isinstance(text, str):
-        raise TypeError(f"{name} is a text, not of type {type(text).__name__}")
+    if text is not None:
+        if not isinstance(text, str):
+            raise TypeError(f"{name} is a text, not of type {type(text).__name__}")
+        _kernel.whole(text)
     return text
 
 
 def _encoded(text):
-    return None if text is None else text.encode(errors="surrogateescape")
+    return None if text is None else _kernel.whole(text)
 
 
 def finite(number):
@@ -142,7 +144,7 @@ class Conditions:
         if names is None:
             computed = store.description["computed"]
             names = [name for name in store.description["attributes"] if name not in computed]
-        query.attributes = b"".join(name.encode() + b"\0" for name in names)
+        query.attributes = b"".join(_kernel.whole(name.encode()) + b"\0" for name in names)
         query.attribute_count = len(names)
         query.memory_bytes = operator.index(memory_limit)
         query.most_points = operator.index(maximum_number_of_points)

@@ -85,6 +85,43 @@ class Writing(unittest.TestCase):
 
     def test_chunks_are_the_points(self):
         whole = self.cloud.points(attributes=["intensity"])
+
+    def test_no_text_ends_at_a_zero_byte(self):
+        """Each is refused as Python's open() does: its beginning is not what was meant."""
+        las = self.folder / "zero.las"
+        self.cloud.export(las, classes=2, overwrite=True)
+        target = self.folder / "zero.pfront"
+        xyz = numpy.arange(9.0).reshape(3, 3)
+        area = "POLYGON ((0 0, 1e7 0, 1e7 1e7, 0 0))"
+        ways = [lambda: pointfront.open(f"{self.store}\0.bak"),
+                lambda: pointfront.open(os.fsencode(self.store) + b"\0.bak"),
+                lambda: pointfront.open(pathlib.Path(f"{self.store}\0.bak")),
+                lambda: pointfront.open("s3://bucket/a.pfront", cache="a\0b"),
+                lambda: pointfront.open("s3://bucket/a.pfront", cache_size="4G\0T"),
+                lambda: pointfront.open("s3://bucket/a.pfront", timeout="5\0x"),
+                lambda: pointfront.index(f"{las}\0x"),
+                lambda: pointfront.index(las, f"{las}.pfindex\0x"),
+                lambda: pointfront.build(f"{las}\0x", target),
+                lambda: pointfront.build([las, f"{las}\0x"], target),
+                lambda: pointfront.build(las, f"{target}\0x"),
+                lambda: pointfront.build({"position": xyz, "a\0b": [1, 2, 3]}, target),
+                lambda: self.cloud.export(f"{target}\0.las"),
+                lambda: self.cloud.screenshot(where="intensity > 50\0 and z < 0")]
+        for name, value in (("crs", "EPSG:2994\0x"), ("assumed_crs", "EPSG:2994\0x"),
+                            ("temporary_folder", f"{self.folder}\0x"),
+                            ("attributes", ["intensity\0x"]), ("color_from", ["a.tif\0x"]),
+                            ("attribute_from", ["a=a.tif\0x"])):
+            ways.append(lambda name=name, value=value: pointfront.build(
+                las, target, **{name: value}))
+        for query in ({"where": "intensity > 50\0 and z < 0"}, {"area": area + "\0"}):
+            for ask in (self.cloud.points, self.cloud.chunks, self.cloud.extract):
+                ways.append(lambda ask=ask, query=query: ask(**query))
+        before = sorted(self.folder.iterdir())
+        for number, way in enumerate(ways):
+            with self.subTest(way=number), self.assertRaisesRegex(ValueError, "null byte"):
+                way()
+        self.assertEqual(sorted(self.folder.iterdir()), before)
+
         for size in (1, 1000, 70000, 10**7):
             if size == 1:
                 box = (whole["position"][:5].min(axis=0), whole["position"][:5].max(axis=0))

@@ -18,19 +18,28 @@ def as_dictionary(inputs):
                                                     for name in inputs.dtype.names}
 
 
+def _plain(name, values, kind=None):
+    """An array without a mask, which a store could not keep."""
+    if numpy.ma.is_masked(values):
+        raise ValueError(
+            f"'{name}' has {numpy.ma.count_masked(values)} masked values, and a store has no mask: "
+            f"leave these points out of all arrays, or fill the values in with filled()")
+    return numpy.asarray(values, kind)
+
+
 def _places(arrays):
     if "position" in arrays:
-        places = numpy.asarray(arrays["position"], numpy.float64)
+        places = _plain("position", arrays["position"], numpy.float64)
         if places.ndim != 2 or places.shape[1] != 3:
             raise ValueError(f"'position' is n by 3, not {places.shape}")
         return numpy.ascontiguousarray(places)
     if not {"x", "y", "z"} <= set(arrays):
         raise ValueError("points have 'position', n by 3, or 'x', 'y' and 'z'")
-    return numpy.stack([numpy.asarray(arrays[axis], numpy.float64) for axis in "xyz"], axis=1)
+    return numpy.stack([_plain(axis, arrays[axis], numpy.float64) for axis in "xyz"], axis=1)
 
 
 def _column(name, values, count):
-    column = numpy.asarray(values)
+    column = _plain(name, values)
     if column.ndim not in (1, 2) or len(column) != count:
         raise ValueError(f"'{name}' has the shape {column.shape}, and there are {count} points")
     if column.ndim == 2 and not 1 <= column.shape[1] <= _MOST_COMPONENTS:
@@ -47,6 +56,9 @@ def _column(name, values, count):
 
 def columns_of(arrays):
     """(places, {name: column}) of {name: array}: contiguous, in the machine's byte order."""
+    for name in arrays:
+        if not isinstance(name, str):
+            raise TypeError(f"the name of an array is a text, not {name!r}")
     places = _places(arrays)
     by_axis = "position" not in arrays
     columns = {}

@@ -1,11 +1,11 @@
 """Building and indexing as Python calls: keyword arguments in, results out, errors raised."""
 
-import operator
+import math
 import os
 
 from . import _arrays, _kernel
 from ._errors import PointFrontError, did_you_mean, warn
-from ._queries import box_of, finite
+from ._queries import box_of, finite, option, whole_number
 
 
 class BuildReport:
@@ -49,35 +49,44 @@ def _texts(names):
 
 
 def _class_numbers(classes):
-    numbers = [operator.index(number) for number in classes]
-    for number in numbers:
-        if not 0 <= number <= 255:
-            raise ValueError(f"a class {number} for normals is none of 0 to 255")
-    return numbers
+    return [whole_number(number, 255) for number in classes]
 
 
-def _count(number):
-    number = operator.index(number)
-    if number < 0:
-        raise ValueError(f"{number} is below 0")
+def _count_32(number):
+    return whole_number(number, (1 << 32) - 1)
+
+
+def _real(number):
+    number = float(number)
+    if not math.isfinite(number):
+        raise ValueError(f"{number} is no finite number")
+    return number
+
+
+def _step(number):
+    number = _real(number)
+    if number <= 0.0:
+        raise ValueError(f"{number} is not above 0")
     return number
 
 
 def _depth(bits):
     if bits not in (0, 8, 16):
-        raise ValueError(f"a color_depth of {bits} bits is none of 0, 8 and 16")
+        raise ValueError(f"{bits} is none of 0, 8 and 16")
     return int(bits)
 
 
 # Options that pointfront.build() takes besides its named arguments, and what makes a value plain.
 _OPTIONS = {
-    "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool, "memory_limit": _count,
-    "number_of_threads": _count, "temporary_folder": os.fsdecode, "node_points": _count,
-    "precision": float, "color_depth": _depth, "crs": os.fsdecode, "assumed_crs": os.fsdecode,
-    "normals_neighbors": _count, "normals_radius": float, "normals_error": float,
+    "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool,
+    "memory_limit": whole_number, "number_of_threads": _count_32,
+    "temporary_folder": os.fsdecode, "node_points": _count_32, "precision": _step,
+    "color_depth": _depth, "crs": os.fsdecode, "assumed_crs": os.fsdecode,
+    "normals_neighbors": _count_32, "normals_radius": _real, "normals_error": _real,
     "normals_classes": _class_numbers, "curvature": bool, "splat_radius": bool,
-    "local_height": bool, "local_height_radius": float, "height_above_ground": bool,
-    "ground_cell": float, "attribute_from": _paths, "preview": bool, "preview_points": _count}
+    "local_height": bool, "local_height_radius": _real, "height_above_ground": bool,
+    "ground_cell": _real, "attribute_from": _paths, "preview": bool,
+    "preview_points": whole_number}
 
 
 def _plain(options):
@@ -88,7 +97,8 @@ def _plain(options):
             raise TypeError(f"there is no option '{name}' among {', '.join(sorted(_OPTIONS))}"
                             f"{did_you_mean(name, _OPTIONS)}")
         if value is not None:
-            plain["skip_faulty" if name == "skip_faulty_files" else name] = _OPTIONS[name](value)
+            key = "skip_faulty" if name == "skip_faulty_files" else name
+            plain[key] = option(name, _OPTIONS[name], value)
     return plain
 
 
@@ -166,6 +176,7 @@ def index(las, side=None, *, overwrite=False, node_points=16384):
     """
     path = os.fsdecode(las)
     target = os.fsdecode(side) if side is not None else path + ".pfindex"
+    points = option("node_points", _count_32, node_points)
     warn(f"{path}: {text}" for text in
-         _kernel.index(path, target, overwrite, _count(node_points))["warnings"])
+         _kernel.index(path, target, overwrite, points)["warnings"])
     return target

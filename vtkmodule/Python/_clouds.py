@@ -6,7 +6,7 @@ import os
 
 from . import _arrays, _far, _host, _kernel, _pictures
 from ._errors import PointFrontError, warn
-from ._queries import KERNEL_OPTIONS, Conditions, class_numbers
+from ._queries import KERNEL_OPTIONS, Conditions, class_numbers, with_limits
 
 
 class Cloud:
@@ -140,7 +140,7 @@ class Cloud:
         from . import _extracts
 
         conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
-        return _extracts.extracted(self.path, conditions, progress, options)
+        return _extracts.extracted(self.path, conditions, progress, with_limits(options))
 
     def points(self, *, box=None, sphere=None, area=None, classes=None, where=None, spacing=None,
                attributes=None, progress=None, **options):
@@ -159,7 +159,7 @@ class Cloud:
         A region that lies beside the cloud is a PointFrontWarning.
         """
         conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
-        return self._arrays(conditions, progress, options)
+        return self._arrays(conditions, progress, with_limits(options))
 
     def _arrays(self, conditions, progress, options, piece=0, pieces=1):
         """By the kernel, or by VTK where an option is one of VTK's objects."""
@@ -182,6 +182,7 @@ class Cloud:
             raise ValueError("a chunk has at least one point")
         conditions = Conditions(self, box, sphere, area, classes, where, spacing, attributes)
         self._opened()
+        options = with_limits(options)
         pieces = max(1, -(-len(self) // size))
 
         def parts():

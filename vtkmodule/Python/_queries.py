@@ -12,9 +12,9 @@ _MOST = (1 << 63) - 1  # points
 _SixNumbers = ctypes.c_double * 6  # types that are made anew would wait for the collector
 _FourNumbers = ctypes.c_double * 4
 _ARRAYS_OWN = ("position", "id")
+_LIMITS = frozenset(("maximum_number_of_points", "memory_limit"))
 # Options of Conditions.arrays; others of vtkPointFrontExtract take objects of VTK.
-KERNEL_OPTIONS = frozenset(
-    ("line_distance", "maximum_number_of_points", "memory_limit", "colors_as_stored"))
+KERNEL_OPTIONS = _LIMITS | {"line_distance", "colors_as_stored"}
 
 
 def box_of(box):
@@ -83,6 +83,28 @@ def _encoded(text):
     return None if text is None else _kernel.whole(text)
 
 
+def whole_number(number, most=_MOST):
+    """A number from 0 to `most`, as int."""
+    number = operator.index(number)
+    if not 0 <= number <= most:
+        raise ValueError(f"{number} is none of 0 to {most}")
+    return number
+
+
+def option(name, plain, value):
+    """The value of an option as `plain` makes it; a ValueError names the option."""
+    try:
+        return plain(value)
+    except ValueError as problem:
+        raise ValueError(f"{name}: {problem}") from None
+
+
+def with_limits(options):
+    """Options of a query whose limits are whole numbers, which count points and bytes."""
+    return {name: option(name, whole_number, value) if name in _LIMITS else value
+            for name, value in options.items()}
+
+
 def finite(number):
     """The largest number in place of an infinite one."""
     return max(-sys.float_info.max, min(sys.float_info.max, number))
@@ -146,8 +168,8 @@ class Conditions:
             names = [name for name in store.description["attributes"] if name not in computed]
         query.attributes = b"".join(_kernel.whole(name.encode()) + b"\0" for name in names)
         query.attribute_count = len(names)
-        query.memory_bytes = operator.index(memory_limit)
-        query.most_points = operator.index(maximum_number_of_points)
+        query.memory_bytes = memory_limit
+        query.most_points = maximum_number_of_points
         query.piece, query.pieces = piece, pieces
         made = {}
         for number, (name, array) in enumerate(store.points(query, progress)):

@@ -78,13 +78,57 @@ class Writing(unittest.TestCase):
                 ({"position": xyz, "a": [1, 2]}, ValueError, "'a'.*3 points"),
                 ({"position": xyz, "a": ["x", "y", "z"]}, TypeError, "'a'"),
                 ({"position": xyz, "a": [1j, 2, 3]}, TypeError, "'a'"),
-                ({"position": xyz, "a": numpy.zeros((3, 17))}, ValueError, "17 components")):
+                ({"position": xyz, "a": numpy.zeros((3, 17))}, ValueError, "17 components"),
+                ({"position": xyz, 3: [1, 2, 3]}, TypeError, "name of an array.*3"),
+                ({"position": xyz, b"a": [1, 2, 3]}, TypeError, "name of an array.*b'a'")):
             with self.assertRaisesRegex(problem, says):
                 pointfront.build(points, self.folder / "none.pfront")
         self.assertFalse((self.folder / "none.pfront").exists())
 
-    def test_chunks_are_the_points(self):
-        whole = self.cloud.points(attributes=["intensity"])
+    def test_masked_values_are_refused(self):
+        """A hidden value is none; a mask that hides nothing is no matter."""
+        xyz = numpy.arange(9.0).reshape(3, 3)
+        fields = numpy.ma.zeros(3, [("x", "f8"), ("y", "f8"), ("z", "f8")])
+        fields["y"][1] = numpy.ma.masked
+        for points, says in (
+                ({"position": numpy.ma.masked_equal(xyz, 4)}, "'position'.* 1 .*mask"),
+                ({"position": xyz, "a": numpy.ma.masked_less([1, 2, 3], 3)}, "'a'.* 2 .*mask"),
+                (fields, "'y'.* 1 .*mask")):
+            with self.subTest(says=says), self.assertRaisesRegex(ValueError, says):
+                pointfront.build(points, self.folder / "none.pfront")
+        self.assertFalse((self.folder / "none.pfront").exists())
+        whole = {"position": numpy.ma.masked_equal(xyz, 99), "a": numpy.ma.array([1, 2, 3])}
+        pointfront.build(whole, self.folder / "whole.pfront", precision=1, preview=False)
+        with pointfront.open(self.folder / "whole.pfront") as cloud:
+            self.assertEqual(sorted(cloud.points()["a"]), [1, 2, 3])
+
+    def test_numbers_that_cannot_be_meant_are_refused(self):
+        xyz = {"position": numpy.arange(9.0).reshape(3, 3)}
+        target = self.folder / "none.pfront"
+        reals = ("precision", "normals_radius", "normals_error", "local_height_radius",
+                 "ground_cell")
+        for name, value in (
+                ("precision", 0), ("precision", -1), ("precision", "fine"),
+                *((name, value) for name in reals for value in (numpy.nan, numpy.inf)),
+                *((name, value) for name in ("number_of_threads", "node_points", "memory_limit",
+                                             "preview_points") for value in (-1, 2**64)),
+                ("number_of_threads", 2**32), ("node_points", 2**32), ("color_depth", 12),
+                ("normals_classes", [256])):
+            with self.subTest(name=name, value=value):
+                with self.assertRaisesRegex(ValueError, name):
+                    pointfront.build(xyz, target, preview=False, **{name: value})
+                self.assertFalse(target.exists())
+        for value in (-1, 2**32):
+            with self.assertRaisesRegex(ValueError, "node_points"):
+                pointfront.index(self.folder / "none.las", node_points=value)
+        ways = (self.cloud.points, self.cloud.extract,
+                lambda **query: next(self.cloud.chunks(**query)))
+        for name in ("maximum_number_of_points", "memory_limit"):
+            for value in (-1, 2**64):
+                for ask in ways:
+                    with self.subTest(name=name, value=value):
+                        with self.assertRaisesRegex(ValueError, name):
+                            ask(**{name: value})
 
     def test_no_text_ends_at_a_zero_byte(self):
         """Each is refused as Python's open() does: its beginning is not what was meant."""
@@ -122,6 +166,8 @@ class Writing(unittest.TestCase):
                 way()
         self.assertEqual(sorted(self.folder.iterdir()), before)
 
+    def test_chunks_are_the_points(self):
+        whole = self.cloud.points(attributes=["intensity"])
         for size in (1, 1000, 70000, 10**7):
             if size == 1:
                 box = (whole["position"][:5].min(axis=0), whole["position"][:5].max(axis=0))

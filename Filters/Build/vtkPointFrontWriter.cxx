@@ -30,7 +30,7 @@ void handOn(vtkObject* caller, unsigned long, void* writerOf, void* fraction)
   }
 }
 
-/// What the builder says is said by the writer, to those who observe the writer.
+/// The writer says what the builder says, to those who observe the writer.
 void sayAgain(vtkObject*, unsigned long event, void* writerOf, void* text)
 {
   auto* writer = static_cast<vtkPointFrontWriter*>(writerOf);

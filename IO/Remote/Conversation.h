@@ -106,6 +106,7 @@ private:
   Result<Verdict> redirect(const HttpAnswer& answer) const;
   Redirection& redirection() const;
   Error changed(std::optional<RemoteIdentity>& identity) const;
+  static bool isForNow(long status); ///< a server that has too much to do
   Error refused(long status) const;
   Error withoutParts() const;
   Error failed(Error::Kind kind, const std::string& what) const;

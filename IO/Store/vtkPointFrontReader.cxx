@@ -392,7 +392,7 @@ bool vtkPointFrontReader::Fill(Found&& found, int piece, int pieces, vtkPolyData
   if (!output || piece < 0 || piece >= pieces)
   {
     vtkErrorMacro(<< (output ? "piece " + std::to_string(piece) + " of " + std::to_string(pieces) +
-                          " does not exist: pieces count from 0"
+                        " does not exist: pieces count from 0"
                              : std::string("no output was given for the points")));
     return false;
   }

@@ -44,7 +44,7 @@ int cloudsOf(vtkProp* prop)
   {
     return 1;
   }
-  vtkNew<vtkPropCollection> actors; // of a level of detail
+  vtkNew<vtkPropCollection> actors; // a level of detail has some
   prop->GetActors(actors);
   int clouds = 0;
   vtkCollectionSimpleIterator at;

@@ -181,7 +181,7 @@ vtkPointFrontStore* vtkPointFrontMapper::GetStore()
   }
   content.Views.setStore(store);
   content.MissingTold = false;
-  content.Statistics = pointfront::FrameStatistics(); // of no frame
+  content.Statistics = pointfront::FrameStatistics(); // no frame yet
   content.Statistics.complete = !store; // no frame shows more
   return content.Views.store();
 }

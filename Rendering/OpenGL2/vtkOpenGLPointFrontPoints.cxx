@@ -72,6 +72,22 @@ void referenceToView(vtkMatrix4x4* worldToView, const double reference[3], doubl
   }
 }
 
+/// Whether a matrix puts the reference point at `world`, by which no digits are lost. `placed` is
+/// where it puts it: a store that an actor flattens has no point there (cameraOf()).
+bool isPlacedAt(
+  const double world[3], vtkMatrix4x4* matrix, const glm::dvec3& reference, double placed[4])
+{
+  const double in[4] = { reference.x, reference.y, reference.z, 1.0 };
+  matrix->MultiplyPoint(in, placed);
+  bool isThere = true;
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double off = std::abs(placed[axis] - world[axis]);
+    isThere = isThere && off <= 1e-9 * std::max(1.0, std::abs(world[axis]));
+  }
+  return isThere;
+}
+
 } // namespace
 
 vtkOpenGLPointFrontPoints::vtkOpenGLPointFrontPoints()
@@ -248,20 +264,10 @@ void vtkOpenGLPointFrontPoints::SetCameraShaderParameters(
   }
   else
   {
-    // Through the world point: the product's translation is the difference of large numbers.
     const double* world =
       camera->GetParallelProjection() ? camera->GetFocalPoint() : camera->GetPosition();
-    // A store that the actor flattens has no point there (cameraOf()).
-    const glm::dvec3& reference = this->Drawing->reference;
-    const double in[4] = { reference.x, reference.y, reference.z, 1.0 };
     double placed[4];
-    act->GetMatrix()->MultiplyPoint(in, placed);
-    bool isThere = true;
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double off = std::abs(placed[axis] - world[axis]);
-      isThere = isThere && off <= 1e-9 * std::max(1.0, std::abs(world[axis]));
-    }
+    const bool isThere = isPlacedAt(world, act->GetMatrix(), this->Drawing->reference, placed);
     referenceToView(worldToView, isThere ? world : placed, moved);
   }
   for (int row = 0; row < 3; ++row)

@@ -1,5 +1,7 @@
 #include "PCDWriter.h"
 
+#include "pointfront/Table/FieldRole.h"
+
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
@@ -51,8 +53,8 @@ private:
   std::string counts_;
 };
 
-void addAttribute(
-  std::size_t column, const Attribute& attribute, RecordEncoder& encoder, FieldLines& lines)
+void addAttribute(std::size_t column, const Attribute& attribute, FieldNames& names,
+  RecordEncoder& encoder, FieldLines& lines)
 {
   static const char* const colours[3] = { "red", "green", "blue" };
   static const char* const normals[3] = { "normal_x", "normal_y", "normal_z" };
@@ -83,7 +85,7 @@ void addAttribute(
   }
   if (!colour && !normal)
   {
-    lines.add(fieldName(attribute.name), type, attribute.components);
+    lines.add(names.add(fieldName(attribute.name)), type, attribute.components);
   }
 }
 } // namespace
@@ -151,9 +153,10 @@ RecordFile::Header PCDWriter::describe(const AttributeSchema& schema, RecordEnco
   {
     lines.add(axis, encoder.coordinates().type);
   }
+  FieldNames names(schema);
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    addAttribute(c, schema[c], encoder, lines);
+    addAttribute(c, schema[c], names, encoder, lines);
   }
   const std::string fields =
     originLine(encoder.coordinates().origin) + "VERSION 0.7\n" + lines.text();

@@ -1,5 +1,7 @@
 #include "PLYWriter.h"
 
+#include "pointfront/Table/FieldRole.h"
+
 #include <utility>
 
 namespace pointfront
@@ -32,7 +34,8 @@ const char* typeName(ScalarType type)
   return "double";
 }
 
-std::string propertyName(const Attribute& attribute, std::size_t component)
+/// `name`: of an attribute whose components have no names of their own.
+std::string propertyName(const Attribute& attribute, const std::string& name, std::size_t component)
 {
   static const char* const colours[3] = { "red", "green", "blue" };
   static const char* const normals[3] = { "nx", "ny", "nz" };
@@ -44,7 +47,6 @@ std::string propertyName(const Attribute& attribute, std::size_t component)
   {
     return normals[component];
   }
-  const std::string name = fieldName(attribute.name);
   return attribute.components == 1 ? name : name + "[" + std::to_string(component) + "]";
 }
 } // namespace
@@ -57,15 +59,17 @@ PLYWriter::PLYWriter(std::string path)
 RecordFile::Header PLYWriter::describe(const AttributeSchema& schema, RecordEncoder& encoder) const
 {
   std::string properties = "property double x\nproperty double y\nproperty double z\n";
+  FieldNames names(schema);
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
+    const std::string name = names.add(fieldName(schema[c].name));
     const bool wide = schema[c].type == ScalarType::Int64 || schema[c].type == ScalarType::UInt64;
     for (std::size_t k = 0; k < schema[c].components; ++k)
     {
       const ScalarType type =
         encoder.add(c, k, wide ? std::make_optional(ScalarType::Float64) : std::nullopt);
       properties +=
-        std::string("property ") + typeName(type) + " " + propertyName(schema[c], k) + "\n";
+        std::string("property ") + typeName(type) + " " + propertyName(schema[c], name, k) + "\n";
     }
   }
   return [properties](std::uint64_t points)

@@ -3,6 +3,7 @@
 #include "DecimalText.h"
 
 #include "pointfront/Disk/OutputFile.h"
+#include "pointfront/Table/FieldRole.h"
 
 #include <algorithm>
 #include <cassert>
@@ -15,7 +16,15 @@ namespace
 constexpr std::size_t flushBytes = 1 << 20;
 
 /// Columns are separated by blanks or commas, so names have none.
-std::string columnName(const Attribute& attribute, std::size_t component)
+std::string plainName(std::string name)
+{
+  std::replace_if(
+    name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '"'; }, '_');
+  return name;
+}
+
+/// `name`: of an attribute whose components have no names of their own.
+std::string columnName(const Attribute& attribute, const std::string& name, std::size_t component)
 {
   static const char* const colours[3] = { "red", "green", "blue" };
   static const char* const normals[3] = { "nx", "ny", "nz" };
@@ -23,9 +32,6 @@ std::string columnName(const Attribute& attribute, std::size_t component)
   {
     return (attribute.name == "rgb" ? colours : normals)[component];
   }
-  std::string name = attribute.name;
-  std::replace_if(
-    name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '"'; }, '_');
   return attribute.components == 1 ? name : name + "[" + std::to_string(component) + "]";
 }
 
@@ -94,14 +100,16 @@ Result<void> XYZWriter::begin(const SinkDescription& description)
   }
   const std::string separator(1, state_->separator);
   state_->text = (separator == "," ? "x" : "# x") + separator + "y" + separator + "z";
+  FieldNames names(description.schema);
   for (const Attribute& attribute : description.schema)
   {
+    const std::string name = names.add(plainName(attribute.name));
     const bool fixed = isScaledInteger(attribute);
     state_->columns.push_back(
       { attribute, fixed, fixed ? decimalsOf(attribute.scale, attribute.offset) : 0 });
     for (std::size_t k = 0; k < attribute.components; ++k)
     {
-      state_->text += separator + columnName(attribute, k);
+      state_->text += separator + columnName(attribute, name, k);
     }
   }
   state_->text += "\n";

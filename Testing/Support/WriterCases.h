@@ -123,6 +123,51 @@ inline void expectNoneAndWideColour(const WriterCase& writerCase)
   }
 }
 
+/// Attributes whose names a reader would take for a coordinate, a part of a colour or one another.
+inline void expectNamesToldApart(const WriterCase& writerCase)
+{
+  SinkDescription description;
+  description.schema.add({ "intensity", ScalarType::UInt16 });
+  description.schema.add({ "z ", ScalarType::UInt16 });
+  description.schema.add({ "Intensity", ScalarType::UInt16 });
+  description.schema.add({ "red", ScalarType::UInt16 });
+  description.schema.add({ "rgb", ScalarType::UInt16, 3 });
+  PointBatch batch;
+  batch.resize(1, description.schema);
+  batch.positions[0] = glm::dvec3(1, 2, 3);
+  std::uint16_t value = 500;
+  for (std::vector<std::byte>& column : batch.columns)
+  {
+    value = static_cast<std::uint16_t>(value + 1);
+    for (std::size_t at = 0; at < column.size(); at += sizeof value)
+    {
+      std::memcpy(column.data() + at, &value, sizeof value);
+    }
+  }
+  const std::string path = writeFile("names." + writerCase.extension, "");
+  const auto writer = writerCase.make(path);
+  ASSERT_TRUE(writer->begin(description));
+  ASSERT_TRUE(writer->append(batch));
+  ASSERT_TRUE(writer->finish());
+  const auto source = openPoints(writerCase.format, path);
+  ASSERT_TRUE(source);
+  const PointBatch all = readPoints(*source);
+  EXPECT_EQ(all.positions, batch.positions);
+  const AttributeSchema& schema = source->description().schema;
+  const std::vector<std::string> names{ "intensity", "z__2", "Intensity_2", "red_2", "rgb" };
+  ASSERT_EQ(schema.size(), names.size());
+  for (std::size_t c = 0; c < names.size(); ++c)
+  {
+    EXPECT_EQ(schema[c].name, names[c]);
+    visitScalar(schema[c].type,
+      [&](auto first)
+      {
+        std::memcpy(&first, all.columns[c].data(), sizeof first);
+        EXPECT_EQ(static_cast<double>(first), 501.0 + static_cast<double>(c)) << names[c];
+      });
+  }
+}
+
 inline void expectReasonWhenItCannotWrite(const WriterCase& writerCase)
 {
   const auto writer =

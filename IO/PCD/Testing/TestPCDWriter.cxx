@@ -98,6 +98,11 @@ TEST_F(PCDWriterTest, WritesNoPointsAndColourOf16Bits)
   expectNoneAndWideColour(case_);
 }
 
+TEST_F(PCDWriterTest, GivesFieldsNamesThatItsReaderTellsApart)
+{
+  expectNamesToldApart(case_);
+}
+
 TEST_F(PCDWriterTest, SaysWhyItCannotWrite)
 {
   expectReasonWhenItCannotWrite(case_);

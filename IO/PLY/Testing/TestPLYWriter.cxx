@@ -31,6 +31,11 @@ TEST_F(PLYWriterTest, WritesNoPointsAndColourOf16Bits)
   expectNoneAndWideColour(case_);
 }
 
+TEST_F(PLYWriterTest, GivesFieldsNamesThatItsReaderTellsApart)
+{
+  expectNamesToldApart(case_);
+}
+
 TEST_F(PLYWriterTest, SaysWhyItCannotWrite)
 {
   expectReasonWhenItCannotWrite(case_);

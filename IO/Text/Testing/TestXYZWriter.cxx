@@ -1,4 +1,6 @@
 #include "FilesInTheMaking.h"
+#include "TextFormat.h"
+#include "WriterCases.h"
 #include "XYZWriter.h"
 
 #include <gtest/gtest.h>
@@ -46,6 +48,16 @@ SinkDescription twoPoints(PointBatch& batch)
   std::memcpy(batch.columns[1].data(), rgb, sizeof rgb);
   std::memcpy(batch.columns[2].data(), scaled, sizeof scaled);
   return description;
+}
+
+TEST(XYZWriter, GivesColumnsNamesThatItsReaderTellsApart)
+{
+  const TextFormat format;
+  for (const auto style : { XYZWriter::Style::Blanks, XYZWriter::Style::CSV })
+  {
+    test::expectNamesToldApart({ format, style == XYZWriter::Style::CSV ? "csv" : "xyz",
+      [style](const std::string& path) { return std::make_unique<XYZWriter>(path, style); } });
+  }
 }
 
 TEST(XYZWriter, NamesItsColumnsAndWritesTheGridsDigits)

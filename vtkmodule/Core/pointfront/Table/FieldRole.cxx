@@ -227,4 +227,37 @@ std::vector<FieldRole> rolesOf(const std::vector<std::string>& names)
   return roles;
 }
 
+FieldNames::FieldNames(const AttributeSchema& schema)
+{
+  for (const Attribute& attribute : schema)
+  {
+    if (attribute.components == 3 && (attribute.name == "rgb" || attribute.name == "normal"))
+    {
+      vectors_.insert(attribute.name);
+    }
+  }
+}
+
+bool FieldNames::take(const std::string& name)
+{
+  const FieldRole role = roleOf(name);
+  const bool coordinate = role.kind == position && role.preference == 0;
+  const bool component = role.kind == vector && vectors_.count(role.attribute) > 0;
+  if (coordinate || component || role.kind == FieldRole::Kind::Padding)
+  {
+    return false;
+  }
+  return taken_.insert(role.kind == FieldRole::Kind::Attribute ? role.attribute : name).second;
+}
+
+std::string FieldNames::add(const std::string& name)
+{
+  std::string tried = name;
+  for (int copy = 2; !take(tried); ++copy)
+  {
+    tried = name + "_" + std::to_string(copy);
+  }
+  return tried;
+}
+
 } // namespace pointfront

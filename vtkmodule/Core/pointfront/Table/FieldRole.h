@@ -1,8 +1,10 @@
 #pragma once
 
+#include "pointfront/Points/AttributeSchema.h"
 #include "pointfront/Points/ScalarType.h"
 
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,5 +41,22 @@ FieldRole roleOf(std::string_view name);
 /// The roles of fields that stand together. A coordinate is the field with the surest name; others
 /// of that coordinate are attributes of their own names. e and n count only together.
 std::vector<FieldRole> rolesOf(const std::vector<std::string>& names);
+
+/// Names for the fields of a file beside x, y and z, which roleOf() tells apart.
+class FieldNames
+{
+public:
+  /// Attributes `rgb` and `normal` of three components have names of their own: red, nx ...
+  explicit FieldNames(const AttributeSchema& schema);
+  /// The name, with "_2", "_3" ... behind it if it would be read as a coordinate, as a component of
+  /// one of those, as an attribute that is there, or not at all.
+  std::string add(const std::string& name);
+
+private:
+  bool take(const std::string& name);
+
+  std::set<std::string> vectors_; ///< attributes that have names of their own
+  std::set<std::string> taken_; ///< attributes as they will be read
+};
 
 } // namespace pointfront

@@ -11,7 +11,7 @@ from decimal import Decimal
 import numpy
 
 from pictures import read_png
-from tool import ToolTest, pointfront
+from tool import ToolTest, pointfront, write_las
 
 BACKGROUND = "1,0,1"
 # lowest coordinate, extent, step: text of so many decimals
@@ -52,6 +52,24 @@ class LimitsTest(ToolTest):
         self.succeed("render", store, "-o", out, "--size", "200x150", "--point-size", 3,
                      "--backend", "software", "--background", BACKGROUND, *options)
         return read_png(out).astype(int)
+
+
+class Steps(LimitsTest):
+    def test_only_floating_point_input_gets_a_coarser_step(self):
+        """Two files in steps of 0.01 that lie more than 2^32 of them apart, and their text."""
+        ends = [(-2.1e7, -2.1e7, 0.0), (2.1e7, 2.1e7, 0.0), (2.2e7, 2.2e7, 0.0)]
+        files = [write_las(self.folder / f"{name}.las", [(*p, 0, 0, 0) for p in points], 0.01, True)
+                 for name, points in (("wide", ends[:2]), ("beside", ends[1:]))]
+        store = self.folder / "a.pfront"
+        to = ("-o", store, "--force", "--assume-crs", "EPSG:2154")
+        self.succeed("build", files[0], *to)
+        for precision in ((), ("--precision", "0.01")):
+            refused = self.refuse(1, "build", *files, *to, *precision)
+            self.assertIn("a precision of 0.1 fits", refused.err)
+        self.succeed("build", *files, *to, "--precision", "0.1")
+        text = self.folder / "a.xyz"
+        text.write_text("".join(f"{x + 0.01:.2f} {y:.2f} {z:.2f}\n" for x, y, z in ends))
+        self.assertIn("rounded to steps of", self.succeed("build", text, *to).err)
 
 
 class Places(LimitsTest):

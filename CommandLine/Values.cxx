@@ -3,9 +3,11 @@
 #include "ByteSize.h"
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <sstream>
+#include <system_error>
 
 namespace pointfront
 {
@@ -141,6 +143,20 @@ CLI::Validator someWords(const std::string& hint)
   return CLI::Validator([hint](const std::string& text)
     { return splitList(text).empty() ? "'" + text + "' names nothing; " + hint : std::string(); },
     "");
+}
+
+CLI::Validator wholeNumberOf64Bits()
+{
+  const auto check = [](std::string& text) -> std::string
+  {
+    std::uint64_t number = 0;
+    const char* const end = text.data() + text.size();
+    const std::from_chars_result read = std::from_chars(text.data(), end, number);
+    return read.ec == std::errc() && read.ptr == end
+      ? std::string()
+      : "'" + text.substr(0, 40) + "' is no whole number from 0 to 18446744073709551615";
+  };
+  return CLI::Validator(check, "");
 }
 
 CLI::Validator wholeNumber()

@@ -36,6 +36,8 @@ CLI::Validator numberBetween(double low, double high);
 CLI::Validator someWords(const std::string& hint);
 /// Transformation for an option that counts: decimal digits, at most 15, of these or of "1e6".
 CLI::Validator wholeNumber();
+/// Check for a number that may be any of 64 bits, as seeds are.
+CLI::Validator wholeNumberOf64Bits();
 
 /// An option of bytes: "512M", "4G". Wrong text is wrong usage.
 CLI::Option* addByteSize(

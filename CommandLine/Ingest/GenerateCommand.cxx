@@ -30,6 +30,7 @@ void GenerateCommand::declare(CLI::App& program)
   app_
     ->add_option(
       "--seed", seed_, "Another landscape for another number (24); many lack some of the classes")
+    ->check(wholeNumberOf64Bits())
     ->type_name("S");
   app_->add_flag("--force", replace_, "Replace an existing file of the same kind");
   app_->add_option("--progress", progress_, "On stderr: auto, plain, json or none (auto)")

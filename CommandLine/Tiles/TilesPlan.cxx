@@ -12,6 +12,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 namespace pointfront
 {
@@ -31,6 +32,20 @@ bool holdsOthers(const std::string& folder)
     }
   }
   return false;
+}
+
+/// Smaller ones would hold a point each, and be millions of files.
+Result<void> checkEdge(double edge, const QuantisationGrid& grid)
+{
+  const double smallest = 10.0 * std::max(grid.scale.x, grid.scale.y);
+  if (edge >= smallest * (1.0 - 1e-9))
+  {
+    return {};
+  }
+  std::ostringstream text;
+  text << "tiles of " << edge << " units are too small: 10 steps of the coordinates (--tile "
+       << smallest << ") are the smallest";
+  return makeError(Error::Kind::BadArgument, text.str());
 }
 
 /// The largest of 1, 2, 5, 10 ... that is not more.
@@ -205,6 +220,10 @@ Result<MosaicPlan> TilesBuild::planned(
       : !schema    ? schema.error()
       : !grid      ? grid.error()
                    : edge.error();
+  }
+  if (Result<void> large = checkEdge(*edge, grid->grid); request_.edge > 0.0 && !large)
+  {
+    return large.error();
   }
   for (const auto* warnings : { &system->warnings, &schema->warnings, &grid->warnings })
   {

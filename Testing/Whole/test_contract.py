@@ -277,6 +277,11 @@ class Reports(ToolTest):
         self.assertEqual(report["points_stored"], 50000)
         self.refuse(2, "generate", "-o", one)
         self.refuse(2, "generate", "--points", 5, "-o", self.folder / "x.foo")
+        for seed in ("99999999999999999999", "-1", "2.5"):
+            said = self.refuse(2, "generate", "--points", 5, "-o", self.folder / "x.las",
+                               f"--seed={seed}").err
+            self.assertIn("from 0 to 18446744073709551615", said)
+        self.succeed("generate", "--points", 5, "--seed", 2 ** 64 - 1, "-o", self.folder / "x.las")
 
 
 class Failures(ToolTest):

@@ -167,6 +167,11 @@ class Tiles(ToolTest):
             said = self.refuse(1, "build", folder, "-o", self.folder / "x", "--tiles", *options)
             self.assertIn(why, said.err)
         self.refuse(2, "build", folder, "-o", self.folder / "x", "--tile", "5")
+        for edge in ("1e-9", "0.009"):
+            refused = pointfront("build", folder, "-o", self.folder / "x", "--tiles", "--tile",
+                                 edge, "--only", "plan")
+            self.assertEqual(refused.status, 1, refused)
+            self.assertIn("(--tile 0.01) are the smallest", refused.err.splitlines()[-1])
         self.refuse(2, "build", folder, "-o", self.folder / "x", "--tiles", "--only", "survey:x")
         self.refuse(1, "build", folder, "-o", self.folder / "x", "--tiles", "--only", "settle")
         self.tiles((), folder)

@@ -2,6 +2,7 @@
 
 #include "InputIdentity.h"
 #include "KnownSystems.h"
+#include "OwnFiles.h"
 
 #include "pointfront/Collection/CollectionWriter.h"
 #include "pointfront/Tiles/CollectionCloud.h"
@@ -207,7 +208,8 @@ void TilesBuild::tellWarnings(const std::vector<TileRecord>& records) const
   tell(findings, " and its margin", " and their margins");
 }
 
-/// Tiles that are no part any more, points that were kept, and what killed processes left.
+/// Tiles that are no part any more, points that were kept, and what killed processes left. Never
+/// what others keep there.
 void TilesBuild::removeOthers(const std::vector<TileRecord>& records) const
 {
   std::set<std::string> kept;
@@ -220,19 +222,28 @@ void TilesBuild::removeOthers(const std::vector<TileRecord>& records) const
     kept.insert(fs::path(tilePath(tile)).filename().string());
   }
   std::error_code failure;
-  for (const char* folder : { "/tiles", "/work" })
+  std::set<fs::path> inputs; // they may lie anywhere
+  for (const PlannedInput& input : plan_->inputs)
   {
-    for (const auto& entry : fs::directory_iterator(request_.folder + folder, failure))
+    inputs.insert(fs::weakly_canonical(input.path, failure));
+  }
+  const auto removeFrom = [&](const std::string& folder, const auto& isOwn)
+  {
+    for (const auto& entry : fs::directory_iterator(folder, failure))
     {
       const std::string name = entry.path().filename().string();
-      const bool tile = folder == std::string("/tiles") || name.rfind("tile-", 0) == 0;
-      if ((tile && kept.count(name) == 0) || name.rfind("points-", 0) == 0)
+      std::error_code ignored;
+      if (isOwn(name) && kept.count(name) == 0 &&
+        fs::is_regular_file(entry.symlink_status(ignored)) &&
+        inputs.count(fs::weakly_canonical(entry.path(), ignored)) == 0)
       {
-        std::error_code ignored;
         fs::remove(entry.path(), ignored);
       }
     }
-  }
+  };
+  removeFrom(request_.folder + "/tiles", isNameOfTile);
+  removeFrom(request_.folder + "/work",
+    [](const std::string& name) { return isNameOfRecord(name) || isNameOfPoints(name); });
 }
 
 Result<void> TilesBuild::writeCollection(const std::vector<TileRecord>& records)

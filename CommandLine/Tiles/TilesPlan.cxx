@@ -1,5 +1,6 @@
 #include "ChosenPasses.h"
 #include "InputIdentity.h"
+#include "OwnFiles.h"
 #include "TilesBuild.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
@@ -19,20 +20,6 @@ namespace pointfront
 namespace
 {
 namespace fs = std::filesystem;
-
-/// Whether a folder has more than what a build of tiles makes first.
-bool holdsOthers(const std::string& folder)
-{
-  std::error_code failure;
-  for (const auto& entry : fs::directory_iterator(folder, failure))
-  {
-    if (entry.path().filename() != "work" && entry.path().filename() != "tiles")
-    {
-      return true;
-    }
-  }
-  return false;
-}
 
 /// Smaller ones would hold a point each, and be millions of files.
 Result<void> checkEdge(double edge, const QuantisationGrid& grid)
@@ -250,13 +237,12 @@ Result<bool> TilesBuild::plan()
     }
     before.reset();
   }
-  else if (!before && fs::exists(request_.folder, failure) && holdsOthers(request_.folder) &&
-    !request_.force)
+  const std::string foreign = before || request_.force ? "" : foreignEntry(request_.folder);
+  if (!foreign.empty())
   {
     return makeError(Error::Kind::Unwritable,
-      request_.folder +
-        ": is there, and holds no build of tiles; choose an empty folder, or "
-        "--force to take this one");
+      request_.folder + ": holds '" + foreign +
+        "' and no build of tiles; choose an empty folder, or --force to take this one");
   }
   Result<OpenedInputs> inputs = request_.openAll();
   if (!inputs)

@@ -180,6 +180,49 @@ class Tiles(ToolTest):
         said = self.refuse(1, "build", folder, "-o", self.folder, "--tiles")
         self.assertIn("empty folder", said.err)
 
+    def test_leave_the_files_of_others(self):
+        """Those that were in the folder before, inputs among them, and those that came later."""
+        folder, land = survey(self, 5000), self.folder / "land"
+        for place in ("tiles", "work"):
+            kept = land / place / "q0.las"
+            kept.parent.mkdir(parents=True)
+            shutil.copy(folder / "part_0.las", kept)
+            said = self.refuse(1, "build", kept, "-o", land, "--tiles", "--tile", SMALL_EDGE)
+            self.assertIn(f"{place}/q0.las", said.err)
+            self.tiles(("--force",), kept, edge=SMALL_EDGE)
+            self.assertTrue(kept.exists())
+            shutil.rmtree(land)
+        (self.folder / "elsewhere").mkdir()
+        land.mkdir()
+        (land / "tiles").symlink_to(self.folder / "elsewhere")
+        said = self.refuse(1, "build", folder, "-o", land, "--tiles")
+        self.assertIn("'tiles'", said.err)
+        (land / "tiles").unlink()
+        for name in ("tiles", "work"):  # what a kill before the plan leaves
+            (land / name).mkdir()
+        self.tiles((), folder, edge=SMALL_EDGE)
+        theirs = [land / name for name in (
+            "tiles/mine.pfront", "tiles/0_0.pfront", "tiles/0_0-notes.pfront",
+            "tiles/0_0-1234567.las",
+            "tiles/1_2.backup", "work/tile-notes.txt", "work/points-of-control.csv",
+            "work/tile-0_0.json.backup.txt")]
+        for path in theirs:
+            path.write_text("mine")
+        (land / "tiles/empty").mkdir()
+        ours = [land / name for name in (
+            "tiles/-7_12-0123abcd.pfront", "tiles/0_0.host-17.part.pfront",
+            f"tiles/0_0.host-17.part.pfront.{17:016x}-{4:016x}.tmp", "work/tile--7_12.json",
+            "work/points-99.kept")]
+        for path in ours:
+            path.write_text("left over")
+        (folder / "bare.xyz").unlink()
+        before = set((land / "tiles").glob("*_*-*.pfront"))
+        self.tiles((), folder, edge=SMALL_EDGE)
+        self.assertTrue(before - set((land / "tiles").iterdir()), "all tiles are as they were")
+        self.assertEqual([path for path in theirs if not path.exists()], [])
+        self.assertTrue((land / "tiles/empty").is_dir())
+        self.assertEqual([path for path in ours if path.exists()], [])
+
 
 class Restart(ToolTest):
     def arguments(self, name, *options):

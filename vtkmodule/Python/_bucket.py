@@ -16,6 +16,8 @@ from ._errors import PointFrontError
 
 AT_ONCE = 16  # downloads of small objects
 TRIES = 5  # for each request
+# Objects that builds of tiles name; others may keep theirs beside them.
+OWN = re.compile(r"tiles/-?\d+_-?\d+-[0-9a-f]{8}\.pfront|work/tile--?\d+_-?\d+\.json")
 IN_USE = "in-use"  # a file of a workplace that its process keeps locked
 
 _lock = threading.Lock()
@@ -261,12 +263,15 @@ class Workplace:
 
     def _remove_others(self):
         """Tiles and records of tiles that are no part any more: the tool has removed the latter
-        from the folder."""
+        from the folder. Never an input."""
         records = {f"work/{name}" for name in os.listdir(self.path("work"))
                    if name.startswith("tile-")}
-        kept = records | {self._store(name) for name in records}
+        with open(self.path("work/plan.json"), encoding="utf-8") as file:
+            inputs = {one["path"].removeprefix(f"{self.address}/")
+                      for one in json.load(file)["inputs"]}
+        kept = records | inputs | {self._store(name) for name in records}
         for name in (*self.bucket.names("tiles/"), *self.bucket.names("work/tile-")):
-            if name not in kept:
+            if OWN.fullmatch(name) and name not in kept:
                 self.bucket.remove(name)
 
 

@@ -111,10 +111,15 @@ class BucketBuild(unittest.TestCase):
         self.assertEqual(list(self.root.glob("pointfront-*")), [])
         # All is done: nothing but the plan's records is written again.
         self.server.requests.clear()
-        self.server.objects["countries/land/tiles/9_9-old.pfront"] = b"of no build"
+        former = ["tiles/9_-9-0123abcd.pfront", "work/tile-9_-9.json"]
+        others = ["tiles/9_9.las", "tiles/9_9-notes.pfront", "work/tile-notes.txt"]
+        self.server.objects |= {f"countries/land/{name}": b"{}" for name in former + others}
         self.build()
         self.assertEqual(self.puts(".pfront"), [])
-        self.assertEqual(digests(self.server.objects) | self.expected, self.expected)
+        there = {key.removeprefix("countries/land/") for key in self.server.objects}
+        self.assertEqual(there & {*former, *others}, set(others))
+        del self.server.objects["countries/land/tiles/9_9-notes.pfront"]
+        self.assertEqual(digests(self.server.objects), self.expected)
 
     def test_a_failed_upload_is_tried_again_or_told(self):
         times = {}

@@ -265,7 +265,7 @@ class Workplace:
         """Tiles and records of tiles that are no part any more: the tool has removed the latter
         from the folder. Never an input."""
         records = {f"work/{name}" for name in os.listdir(self.path("work"))
-                   if name.startswith("tile-")}
+                   if OWN.fullmatch(f"work/{name}")}
         with open(self.path("work/plan.json"), encoding="utf-8") as file:
             inputs = {one["path"].removeprefix(f"{self.address}/")
                       for one in json.load(file)["inputs"]}

@@ -5,6 +5,7 @@ import collections
 import logging
 
 import msgpack
+from aiohttp.http import HttpProcessingError
 from wslink.chunking import HEADER_LENGTH, UnChunker, generate_chunks
 
 FRAMES = "publish:trame.rca.topic.stream:"  # how the ids of frames begin
@@ -200,8 +201,14 @@ class Escaped(logging.Filter):
         return True
 
 
+def _is_of_this_server(record):
+    """Not of a request that is none: anybody sends that, and its answer says what is wrong."""
+    return not (record.exc_info and isinstance(record.exc_info[1], HttpProcessingError))
+
+
 def quieten():
-    """Escapes the logs of the libraries below."""
+    """Escapes the logs of the libraries below, and has no faults of strangers in them."""
+    logging.getLogger("aiohttp.server").addFilter(_is_of_this_server)  # again is once
     for name in ("wslink", "wslink.protocol", "wslink.backends.aiohttp", "wslink.websocket",
                  "aiohttp.access", "aiohttp.server", "aiohttp.web", "trame_server.protocol",
                  "pointfront"):

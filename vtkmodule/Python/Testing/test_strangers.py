@@ -277,6 +277,23 @@ class Strangers(InBrowser):
         self.assertEqual(server.end(), 130)
         self.assertEqual(server.said, "")
 
+    def test_requests_that_are_none_fill_no_log(self):
+        """Each is answered, and the server's own log says nothing of it."""
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        address = urllib.parse.urlsplit(server.url)
+        for said in (b"\x16\x03\x01\x02\x00\x01\x00\x01\xfc\x03\x03\r\n\r\n", b"GET\r\n\r\n",
+                     b"GET / HTTP/9\r\n\r\n", b"GET / HTTP/1.1\r\nno header\r\n\r\n",
+                     b"GET / HTTP/1.1\r\nContent-Length: x\r\n\r\n",
+                     b"GET /" + b"a" * 20000 + b" HTTP/1.1\r\n\r\n",
+                     b"GET / HTTP/1.1\r\nA: " + b"a" * 20000 + b"\r\n\r\n"):
+            with socket.create_connection((address.hostname, address.port), 20.0) as line:
+                line.sendall(said)
+                self.assertRegex(line.recv(1 << 16), rb"\AHTTP/1\.[01] 4", said[:40])
+        self.assertEqual(status_of(server.url), 200)
+        self.assertEqual(server.end(), 130)
+        self.assertEqual(server.said, "")
+
     def test_strangers_have_a_small_share_of_the_server(self):
         """Sixteen at a time, who ask as fast as they can: they are answered at a rate, and whoever
         has the secret comes in meanwhile.

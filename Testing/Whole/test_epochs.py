@@ -129,6 +129,34 @@ class Epochs(SceneTest):
         shown = {tuple(pixel) for pixel in coloured.reshape(-1, 3).tolist()}
         self.assertLessEqual({(255, 0, 0), (0, 0, 255)}, shown)
 
+    def test_an_epoch_is_named_once(self):
+        city = self.places / "one.pfcollection"
+        named = f"{city}#epoch={YEARS[0]}"
+        for words in (("render", named, "--epoch", YEARS[1], "-o", self.folder / "a.png"),
+                      ("export", named, "--epoch", YEARS[1], "-o", self.folder / "a.las"),
+                      ("info", named, "--epoch", YEARS[0])):
+            self.assertIn(f"{city}': its epoch is named twice, '{YEARS[0]}' and '",
+                          self.refuse(1, *words).err)
+        self.assertEqual(self.entries(), [])
+
+    def test_names_of_files_may_look_like_epochs(self):
+        """A file that is there goes by its whole name."""
+        folder = self.folder / "a#epoch=2"
+        folder.mkdir()
+        for name in (folder / "e.pfcollection", self.folder / "h#epoch=1.pfcollection"):
+            stores = [self.places / f"one-{year}.pfront" for year in YEARS]
+            self.succeed("collection", "create", name, stores[0], "--epoch", YEARS[0])
+            self.succeed("collection", "add", name, stores[1], "--epoch", YEARS[1])
+            for words, points in (((name,), 2 * POINTS), ((name, "--epoch", YEARS[0]), POINTS),
+                                  ((f"{name}#epoch={YEARS[0]}",), POINTS)):
+                self.assertEqual(self.succeed("info", *words, "--json").json["points"], points)
+                self.succeed("render", *words, "-o", self.folder / "a.png", "--size", "32x24")
+            self.assertIn("it has: 2019, 2024-07", self.refuse(1, "info", name, "--epoch", "1").err)
+            self.succeed("build", name, "-o", self.folder / "b.pfront", "--force")
+        self.succeed("build", folder / "e.pfcollection", "-o", folder / "b.pfront")
+        self.assertEqual(self.succeed("info", folder / "b.pfront", "--json").json["points"],
+                         2 * POINTS)
+
     def test_epochs_that_are_not_there_are_refused(self):
         style = self.folder / "style.json"
         style.write_text(json.dumps(self.swipe(STYLES[0][0], left="2024-7")))

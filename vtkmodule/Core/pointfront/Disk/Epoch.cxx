@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <filesystem>
 #include <optional>
 
 namespace pointfront
@@ -54,7 +55,8 @@ std::optional<double> yearOf(const std::string& date)
 EpochAddress EpochAddress::of(const std::string& address)
 {
   const std::size_t at = address.rfind(mark);
-  if (at == std::string::npos)
+  std::error_code failure;
+  if (at == std::string::npos || std::filesystem::exists(address, failure))
   {
     return { address, std::nullopt };
   }

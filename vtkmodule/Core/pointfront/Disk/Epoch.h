@@ -13,7 +13,7 @@ struct EpochAddress
   std::string file; ///< path or address of the collection
   std::optional<std::string> epoch; ///< nothing: all its tiles
 
-  /// Every other address is a file's own.
+  /// Every other address is a file's own, and so is the path of a file with such a name.
   static EpochAddress of(const std::string& address);
   std::string text() const;
 };

@@ -104,10 +104,17 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openWhole(
 Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
   Open way, const std::string& path) const
 {
+  const EpochAddress asked = EpochAddress::of(path);
+  if (const EpochAddress first = EpochAddress::of(asked.file); first.epoch)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "'" + first.file + "': its epoch is named twice, '" + *first.epoch + "' and '" +
+        asked.epoch.value_or("") + "'; leave one out");
+  }
   std::shared_ptr<const ByteSource> held; // a source that is open is the same for all
   if (isAddress(path))
   {
-    Result<std::shared_ptr<const ByteSource>> source = openFar(EpochAddress::of(path).file);
+    Result<std::shared_ptr<const ByteSource>> source = openFar(asked.file);
     if (!source)
     {
       return source.error();
@@ -115,8 +122,7 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
     held = std::move(*source);
   }
   const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
-  if (const EpochAddress asked = EpochAddress::of(path);
-      !format && asked.epoch && accepts(asked.file))
+  if (!format && asked.epoch && accepts(asked.file))
   {
     return makeError(Error::Kind::BadArgument,
       "'" + asked.file + "' is no collection, and nothing else has epochs; leave out '" +

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/Epoch.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -135,6 +136,14 @@ Result<std::vector<std::string>> filesMatching(const std::string& pattern, const
   return files;
 }
 
+/// Whether a path is that of a file with the name of an epoch behind it.
+bool isCollectionAtEpoch(const std::string& argument)
+{
+  std::error_code failure;
+  const EpochAddress asked = EpochAddress::of(argument);
+  return asked.epoch && fs::is_regular_file(asked.file, failure);
+}
+
 Result<std::vector<std::string>> expand(const std::string& argument, const FolderRule& rule)
 {
   if (isAddress(argument))
@@ -148,6 +157,10 @@ Result<std::vector<std::string>> expand(const std::string& argument, const Folde
     return filesBelow(argument, rule);
   }
   if (fs::exists(status))
+  {
+    return std::vector<std::string>{ argument };
+  }
+  if (isCollectionAtEpoch(argument))
   {
     return std::vector<std::string>{ argument };
   }
@@ -191,8 +204,9 @@ Result<InputFileList> findInputFiles(const std::vector<std::string>& arguments,
   for (const std::string& path : list.paths)
   {
     std::error_code failure;
-    const fs::path real = fs::canonical(path, failure);
-    const auto [first, isNew] = seen.emplace(failure ? path : real.string(), path);
+    EpochAddress real = EpochAddress::of(path);
+    real.file = fs::canonical(real.file, failure).string();
+    const auto [first, isNew] = seen.emplace(failure ? path : real.text(), path);
     if (isNew)
     {
       once.push_back(path);

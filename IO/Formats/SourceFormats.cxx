@@ -11,6 +11,7 @@
 
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Query/StoredPoints.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
@@ -27,7 +28,8 @@ namespace
 /// A cloud that is read piece by piece, never as a whole file.
 bool isReadByNodes(const std::string& path, bool boxed)
 {
-  if (isAddress(path) || std::filesystem::path(path).extension() == ".pfcollection")
+  if (isAddress(path) || std::filesystem::path(path).extension() == ".pfcollection" ||
+    EpochAddress::of(path).epoch)
   {
     return true;
   }

@@ -129,6 +129,23 @@ class Epochs(SceneTest):
         shown = {tuple(pixel) for pixel in coloured.reshape(-1, 3).tolist()}
         self.assertLessEqual({(255, 0, 0), (0, 0, 255)}, shown)
 
+    def test_a_store_is_built_of_one_epoch(self):
+        """The same one twice is read once."""
+        city = self.places / "one.pfcollection"
+        roundabout = self.places / ".." / self.places.name / city.name
+        for epoch in YEARS:
+            store = self.folder / "built.pfront"
+            told = self.succeed("build", f"{city}#epoch={epoch}", f"{roundabout}#epoch={epoch}",
+                                "-o", store, "--force")
+            self.assertIn("read once", told.err)
+            self.assertEqual(self.succeed("info", store, "--json").json["points"], POINTS)
+        for words, why in ((f"{city}#epoch=1999", "it has: 2019, 2024-07"),
+                           (f"{store}#epoch=2019", "is no collection"),
+                           (f"{city}s#epoch=2019", "no such file or folder"),
+                           (f"{self.places}#epoch=2019", "no such file or folder")):
+            self.assertIn(why, self.refuse(1, "build", words, "-o", self.folder / "no.pfront").err)
+        self.assertFalse((self.folder / "no.pfront").exists())
+
     def test_an_epoch_is_named_once(self):
         city = self.places / "one.pfcollection"
         named = f"{city}#epoch={YEARS[0]}"

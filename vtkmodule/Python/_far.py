@@ -116,7 +116,8 @@ def environment(words):
     lines = []
     for word in filter(is_address, map(str, words)):
         if word in _addresses:
-            lines.append(f"{word.rsplit('?', 1)[-1]} {_addresses[word]}")
+            mark = word.rsplit("?", 1)[-1].partition("#")[0]  # "#epoch=2024"
+            lines.append(f"{mark} {_addresses[word]}")
     for origin in {origin_of(word) for word in map(str, words) if is_address(word)}:
         if origin in _headers:
             lines += [f"[{origin}]", *_headers[origin]]

@@ -8,6 +8,7 @@
 
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/ByteTraffic.h"
+#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Points/ObjectClass.h"
 #include "pointfront/Query/BoxRegion.h"
@@ -91,13 +92,15 @@ Result<std::string> canonicalPath(const std::string& path)
     return pointfront::publicForm(path);
   }
   std::error_code code;
-  const auto found = std::filesystem::canonical(pointfront::presentStorePath(path), code);
+  pointfront::EpochAddress asked = pointfront::EpochAddress::of(path);
+  const auto found = std::filesystem::canonical(pointfront::presentStorePath(asked.file), code);
   if (code)
   {
     return makeError(Error::Kind::NotFound,
       "cannot open the store " + path + ": " + code.message() + "; check the path");
   }
-  return found.string();
+  asked.file = found.string();
+  return asked.text();
 }
 
 bool hasDeepColours(const pointfront::StoreDescription& store)

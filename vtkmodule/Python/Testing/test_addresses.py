@@ -205,6 +205,49 @@ class Addresses(unittest.TestCase):
                 env={**os.environ, "POINTFRONT_FAR": variable.split("=", 1)[1]})
             self.assertRegex(info.stdout, b"^174151 174151 <Picture 9x9")
 
+    def collection(self):
+        """A collection of two epochs; how many points the second has."""
+        city, half = self.folder / "e.pfcollection", self.folder / "half.pfront"
+        low, high = pointfront.open(self.store).bounds
+        pointfront.build(self.store, half, preview=False,
+                         box=(low, [(low[0] + high[0]) / 2, *high[1:]]))
+        for verb, tile, epoch in (("create", self.store, "2019"), ("add", half, "2021")):
+            subprocess.run([TOOL, "collection", verb, city, tile, "--epoch", epoch], check=True,
+                           stdout=subprocess.DEVNULL)
+        return city, len(pointfront.open(half))
+
+    def test_a_collection_is_opened_at_an_epoch(self):
+        """By its path, which may be relative, and by its address with settings and secrets."""
+        city, points = self.collection()
+        here = os.getcwd()
+        self.addCleanup(os.chdir, here)
+        os.chdir(self.folder)
+        far = f"{self.origin}/e.pfcollection"
+        picture = None
+        for name, settings in ((f"{city}#epoch=2021", {}), ("e.pfcollection#epoch=2021", {}),
+                               (city.with_name(city.name + "#epoch=2021"), {}),
+                               (f"{far}#epoch=2021", {}), (f"{far}#epoch=2021", {"timeout": 99}),
+                               (f"{far}#epoch=2021", {"cache": False}),
+                               (f"{far}?{SECRET}#epoch=2021", {}),
+                               (f"{far}?{SECRET}#epoch=2021", {"cache_size": "1M"})):
+            with self.subTest(name=name, **settings):
+                cloud = pointfront.open(name, **settings)
+                self.assertTrue(cloud.path.endswith("#epoch=2021"), cloud.path)
+                self.assertEqual(len(cloud.points(attributes=[])["id"]), points)
+                self.assertEqual(cloud.info["points"], points)
+                pixels = cloud.screenshot(size=(64, 48)).pixels
+                picture = pixels if picture is None else picture
+                self.assertTrue((pixels == picture).all())
+                cloud.export("half.las", overwrite=True)
+                self.assertEqual(len(pickle.loads(pickle.dumps(cloud))), points)
+        for name in (f"{city}#epoch=2020", f"{far}#epoch=2020"):
+            with self.assertRaisesRegex(pointfront.PointFrontError, "2020.*it has: 2019, 2021"):
+                pointfront.open(name)
+        with self.assertRaisesRegex(pointfront.PointFrontError, "is no collection"):
+            pointfront.open(f"{self.store}#epoch=2021")
+        self.assertEqual(pointfront.build(f"{city}#epoch=2021", "b.pfront", preview=False
+                                          ).points_stored, points)
+
     def test_a_spawned_child_opens_it_by_what_its_parent_knows(self):
         cloud = pointfront.open(f"{self.origin}/~bearer/a.pfront?{SECRET}", token=TOKEN)
         child = multiprocessing.get_context("spawn").Process(target=len, args=(cloud,))

@@ -169,6 +169,27 @@ class GoodServers(RemoteTest):
         self.assertIn("POINTFRONT_FAR", refused.err)
         self.assertNotIn("SECRET-LINE", refused.err)
 
+    def test_a_collection_holds_no_secrets(self):
+        """It has the public forms of addresses, which only one process knows how to open."""
+        city = self.folder / "e.pfcollection"
+        secret = f"{self.address('')}?{SECRET}"
+        behind = self.address("").replace("//", "//me:VERY-SECRET@")
+        create = ("collection", "create", city)
+        for words in ((*create, secret), (*create, self.store, behind),
+                      (*create, f"{secret}#far:timeout=99")):
+            refused = self.refuse(1, *words, environment=environment())
+            self.assertRegex(refused.err, r"(?s)\A(?!.*VERY-SECRET).*POINTFRONT_HTTP_HEADERS")
+            self.assertFalse(city.exists())
+        self.assertEqual(self.server.requests, [])
+        self.succeed(*create, self.address(""), environment=environment())
+        before = city.read_bytes()
+        for words in (("add", city, secret, "--name", "other"), ("replace", city, secret)):
+            refused = self.refuse(1, "collection", *words, environment=environment())
+            self.assertIn("POINTFRONT_HTTP_HEADERS", refused.err)
+        self.assertEqual(city.read_bytes(), before)
+        self.assertEqual(sorted(self.points(city, environment=environment()).splitlines()),
+                         sorted(self.expected.splitlines()))
+
     def test_a_query_is_no_part_of_what_is_said(self):
         outcome = self.succeed("info", f"{self.address('')}?{SECRET}", "--json",
                                environment=environment())

@@ -180,6 +180,10 @@ Result<CollectionReport> createCollection(
     return makeError(Error::Kind::Unsupported,
       path + ": a collection is written to a file; upload that when it is done");
   }
+  if (Result<void> sound = checkAddresses(path, tiles); !sound)
+  {
+    return sound.error();
+  }
   Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path);
   if (!file)
   {
@@ -213,6 +217,10 @@ Result<CollectionReport> createCollection(
 Result<CollectionReport> addTiles(
   const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
 {
+  if (Result<void> sound = checkAddresses(path, tiles); !sound)
+  {
+    return sound.error();
+  }
   Result<Begun> begun = begin(path);
   return begun
     ? apply(path, std::move(*begun), { {}, tiles, counted("add", tiles.size()), false }, options)
@@ -222,6 +230,10 @@ Result<CollectionReport> addTiles(
 Result<CollectionReport> replaceTiles(
   const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
 {
+  if (Result<void> sound = checkAddresses(path, tiles); !sound)
+  {
+    return sound.error();
+  }
   Result<Begun> begun = begin(path);
   if (!begun)
   {

@@ -141,6 +141,24 @@ std::string tileNameOf(const std::string& path)
   return name;
 }
 
+Result<void> checkAddresses(const std::string& collection, const std::vector<TileRequest>& requests)
+{
+  for (const TileRequest& request : requests)
+  {
+    const std::string address = relativeAddress(collection, request.path);
+    if (isAddress(address) && address.find('?') != std::string::npos) // it hides something
+    {
+      return makeError(Error::Kind::BadArgument,
+        collection + ": '" + address +
+          "' stands for an address with a user, a password, a query or settings of its own; the "
+          "collection's file would have to hold that for all who read it, secrets included: name "
+          "an address without, and give headers or a token by the environment "
+          "(POINTFRONT_HTTP_HEADERS)");
+    }
+  }
+  return {};
+}
+
 Result<std::vector<IncomingTile>> openTiles(const std::string& collection,
   const std::vector<TileRequest>& requests, const ProgressFunction& progress)
 {

@@ -44,6 +44,12 @@ std::string tileNameOf(const std::string& path);
 /// Two texts that name the same coordinate reference system.
 using SameSystem = std::function<bool(const std::string&, const std::string&)>;
 
+/// Whether a collection's file can name what is to be taken in, for all who will read it.
+/// Errors  BadArgument: an address with a user, a password, a query or settings, which
+///         this process alone knows.
+Result<void> checkAddresses(
+  const std::string& collection, const std::vector<TileRequest>& requests);
+
 /// Opens tiles beside each other.
 /// Errors  those that cannot be opened, the first three by name; BadArgument: a collection, a
 ///         preview, a tile without points or with representatives.

@@ -57,7 +57,12 @@ void CacheCommand::declare(CLI::App& program)
 
 Result<void> CacheCommand::run()
 {
-  const std::shared_ptr<const FarCache> cache = FarCache::ofProcess();
+  const Result<std::shared_ptr<const FarCache>> found = FarCache::ofProcess();
+  if (!found)
+  {
+    return found.error();
+  }
+  const std::shared_ptr<const FarCache>& cache = *found;
   if (!cache)
   {
     return noCache();

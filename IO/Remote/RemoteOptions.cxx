@@ -42,7 +42,9 @@ std::string trimmed(const std::string& text)
 }
 
 /// The lines of one "[section]" of a file.
-Result<std::vector<std::string>> sectionOf(const std::string& path, const std::string& section)
+/// all  lines above the first section are an error; else nobody reads them
+Result<std::vector<std::string>> sectionOf(
+  const std::string& path, const std::string& section, bool all)
 {
   const Result<std::string> text = readSmallText(path, mostSettingsBytes);
   if (!text)
@@ -51,9 +53,12 @@ Result<std::vector<std::string>> sectionOf(const std::string& path, const std::s
   }
   std::vector<std::string> lines;
   bool inside = false;
+  bool above = true;
+  std::size_t number = 0;
   std::istringstream in(*text);
   for (std::string line; std::getline(in, line);)
   {
+    ++number;
     line = trimmed(line);
     if (line.empty() || line.front() == '#' || line.front() == ';')
     {
@@ -62,6 +67,14 @@ Result<std::vector<std::string>> sectionOf(const std::string& path, const std::s
     if (line.front() == '[')
     {
       inside = line == "[" + section + "]";
+      above = false;
+    }
+    else if (all && above)
+    {
+      return makeError(Error::Kind::BadArgument,
+        "line " + std::to_string(number) + " of '" + path +
+          "' has nothing in brackets above it that says whom it is for; write [" + section +
+          "] there");
     }
     else if (inside)
     {
@@ -110,7 +123,7 @@ Result<StoreAccess> storeAccess()
   const auto read = [&](const std::string& file, const std::string& section,
                       bool must) -> Result<std::map<std::string, std::string>>
   {
-    const Result<std::vector<std::string>> lines = sectionOf(file, section);
+    const Result<std::vector<std::string>> lines = sectionOf(file, section, false);
     if (!lines)
     {
       return must ? Result<std::map<std::string, std::string>>(lines.error())
@@ -232,10 +245,10 @@ Result<Request> requestOf(const Address& address)
   const std::string file = setting("POINTFRONT_HTTP_HEADERS");
   if (request.headers.empty() && !file.empty())
   {
-    Result<std::vector<std::string>> lines = sectionOf(file, address.origin());
+    Result<std::vector<std::string>> lines = sectionOf(file, address.origin(), true);
     if (!lines)
     {
-      return lines.error();
+      return makeError(lines.error().kind, "POINTFRONT_HTTP_HEADERS: " + lines.error().what);
     }
     request.headers = std::move(*lines);
   }

@@ -169,6 +169,18 @@ class GoodServers(RemoteTest):
         self.assertIn("POINTFRONT_FAR", refused.err)
         self.assertNotIn("SECRET-LINE", refused.err)
 
+    def test_headers_that_are_for_nobody(self):
+        settings = self.folder / "headers"
+        for text, line in ((f"Authorization: Bearer {TOKEN}\n", 1),
+                           (f"# for all\n\nX: {TOKEN}\n[{self.origin()}]\nX: Y\n", 3)):
+            settings.write_text(text)
+            said = self.refuse(1, "info", self.address(""), environment=environment(
+                POINTFRONT_HTTP_HEADERS=str(settings))).err
+            self.assertIn(f"POINTFRONT_HTTP_HEADERS: line {line} of '{settings}'", said)
+            self.assertRegex(said, rf"\A(?!.*{TOKEN}).*write \[{self.origin()}\]")
+        settings.write_text("# nothing\n")
+        self.assert_served("", POINTFRONT_HTTP_HEADERS=str(settings))
+
     def test_a_collection_holds_no_secrets(self):
         """It has the public forms of addresses, which only one process knows how to open."""
         city = self.folder / "e.pfcollection"
@@ -214,6 +226,19 @@ class Cache(RemoteTest):
         """Facts of the picture with the fewest requests, of three: a busy machine may ask for a
         node that the picture turns out not to need, and then the cache has that, too."""
         return min((self.draw(cloud)[1] for _ in range(3)), key=lambda facts: facts["requests"])
+
+    def test_a_size_that_is_none_is_refused(self):
+        for size in ("abc", "5X", "-1", "1Gb2", "nan"):
+            for words in (("info", self.address("")), ("cache", "info")):
+                told = {**self.with_cache, "POINTFRONT_CACHE_SIZE": size}
+                self.assertIn(f"POINTFRONT_CACHE_SIZE: '{size}' is no size",
+                              self.refuse(1, *words, environment=told).err)
+        self.assertFalse(self.cache.exists())
+        for size, options in (("5M", ()), ("abc", ("--cache-size", "1G"))):
+            self.draw(self.address(""), *options, POINTFRONT_CACHE_SIZE=size)
+            shutil.rmtree(self.cache / "segments")
+        self.draw(self.address(""), POINTFRONT_CACHE_SIZE="0")
+        self.assertFalse((self.cache / "segments").exists())
 
     def test_the_second_picture_asks_only_whether_the_file_changed(self):
         near, facts = self.draw(self.store)

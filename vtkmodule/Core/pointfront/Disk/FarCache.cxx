@@ -60,39 +60,52 @@ std::string folderOfSettings()
                                                                        : std::string();
 }
 
-std::uint64_t limitOfSettings(const std::string& folder)
+/// The size that the environment names, if it names one.
+Result<std::optional<std::uint64_t>> limitOfSettings()
 {
-  if (const std::string text = setting("POINTFRONT_CACHE_SIZE"); !text.empty())
+  const std::string text = setting("POINTFRONT_CACHE_SIZE");
+  if (text.empty())
   {
-    char* end = nullptr;
-    const double value = std::strtod(text.c_str(), &end);
-    const char unit = static_cast<char>(std::toupper(static_cast<unsigned char>(*end)));
-    const std::size_t power = std::string("\0KMGT", 5).find(unit);
-    const double bytes = value * double(std::uint64_t(1) << (10 * (power < 5 ? power : 0)));
-    return bytes > 0.0 && bytes < 9e18 ? static_cast<std::uint64_t>(bytes) : 0;
+    return std::optional<std::uint64_t>();
   }
+  const Result<std::uint64_t> bytes = cacheBytesOf(text);
+  if (!bytes)
+  {
+    return makeError(bytes.error().kind, "POINTFRONT_CACHE_SIZE: " + bytes.error().what);
+  }
+  return std::optional<std::uint64_t>(*bytes);
+}
+
+std::uint64_t usualLimitIn(const std::string& folder)
+{
   std::error_code failure;
   const auto space = std::filesystem::space(folder, failure);
   return failure ? 0 : std::min<std::uint64_t>(usualLimit, space.available / 10);
 }
 
 /// bytes: the most that it keeps; none: by the environment.
-std::shared_ptr<const FarCache> cacheIn(
+Result<std::shared_ptr<const FarCache>> cacheIn(
   const std::string& folder, const std::optional<std::uint64_t>& bytes)
 {
+  const Result<std::optional<std::uint64_t>> said = bytes ? bytes : limitOfSettings();
+  if (!said)
+  {
+    return said.error();
+  }
+  const std::shared_ptr<const FarCache> none;
   std::error_code failure;
   if (folder.empty())
   {
-    return nullptr;
+    return none;
   }
   std::filesystem::create_directories(folder, failure);
   if (failure || ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0)
   {
-    return nullptr;
+    return none;
   }
   ::chmod(folder.c_str(), 0700); // a token may have opened its content
-  const std::uint64_t most = bytes ? *bytes : limitOfSettings(folder);
-  return most > 0 ? std::make_shared<const FarCache>(folder, most) : nullptr;
+  const std::uint64_t most = *said ? **said : usualLimitIn(folder);
+  return most > 0 ? std::make_shared<const FarCache>(folder, most) : none;
 }
 
 /// Bytes [offset, offset + size) in parts that lie in one segment each.
@@ -132,12 +145,12 @@ FarIdentity FarIdentity::withoutPromise() const
   return same;
 }
 
-std::shared_ptr<const FarCache> FarCache::ofProcess()
+Result<std::shared_ptr<const FarCache>> FarCache::ofProcess()
 {
   const ForkHold hold;
   // Never deleted: sources may outlive static objects.
   static auto* const cache =
-    new std::shared_ptr<const FarCache>(cacheIn(folderOfSettings(), std::nullopt));
+    new Result<std::shared_ptr<const FarCache>>(cacheIn(folderOfSettings(), std::nullopt));
   return *cache;
 }
 
@@ -159,7 +172,12 @@ Result<std::shared_ptr<const FarCache>> FarCache::of(const FarSettings& settings
   std::shared_ptr<const FarCache>& cache = (*caches)[{ folder, settings.cacheBytes }];
   if (!cache)
   {
-    cache = cacheIn(folder, settings.cacheBytes);
+    Result<std::shared_ptr<const FarCache>> made = cacheIn(folder, settings.cacheBytes);
+    if (!made)
+    {
+      return made.error();
+    }
+    cache = std::move(*made);
   }
   if (!cache && settings.cacheFolder && ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0)
   {

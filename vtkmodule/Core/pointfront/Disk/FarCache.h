@@ -43,7 +43,8 @@ class FarCache
 {
 public:
   /// Null if it is switched off, or its folder cannot be had.
-  static std::shared_ptr<const FarCache> ofProcess();
+  /// Errors  BadArgument: a POINTFRONT_CACHE_SIZE that is no size.
+  static Result<std::shared_ptr<const FarCache>> ofProcess();
   static bool offline();
   /// As ofProcess(), with what the settings of an address say. One folder with one limit is one.
   /// Errors  Unwritable: a folder that the settings name, and that cannot be had.

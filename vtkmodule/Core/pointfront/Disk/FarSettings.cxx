@@ -64,17 +64,14 @@ Result<void> take(const std::string& name, const std::string& value, FarSettings
   {
     settings.cacheFolder = value;
   }
-  else if (const double bytes = std::strtod(value.c_str(), &end); name == "cache_size")
+  else if (name == "cache_size")
   {
-    const char unit = static_cast<char>(std::toupper(static_cast<unsigned char>(*end)));
-    const std::size_t power = std::string("\0KMGT", 5).find(unit);
-    const double all = bytes * double(std::uint64_t(1) << (10 * std::min<std::size_t>(power, 5)));
-    if (end == value.c_str() || power > 4 || (power > 0 && end[1] != '\0') ||
-      !(all >= 0.0 && all < 9e18))
+    const Result<std::uint64_t> bytes = cacheBytesOf(value);
+    if (!bytes)
     {
-      return wrong("'" + value + "' is no size of a cache: 512M, 4G; 0 for none");
+      return bytes.error();
     }
-    settings.cacheBytes = static_cast<std::uint64_t>(all);
+    settings.cacheBytes = *bytes;
   }
   else if (const double seconds = std::strtod(value.c_str(), &end); name == "timeout")
   {
@@ -168,6 +165,21 @@ Result<FarSettings> FarSettings::parse(std::string_view text)
     return sound.error();
   }
   return settings;
+}
+
+Result<std::uint64_t> cacheBytesOf(const std::string& text)
+{
+  char* end = nullptr;
+  const double bytes = std::strtod(text.c_str(), &end);
+  const char unit = static_cast<char>(std::toupper(static_cast<unsigned char>(*end)));
+  const std::size_t power = std::string("\0KMGT", 5).find(unit);
+  const double all = bytes * double(std::uint64_t(1) << (10 * std::min<std::size_t>(power, 5)));
+  if (end == text.c_str() || power > 4 || (power > 0 && end[1] != '\0') ||
+    !(all >= 0.0 && all < 9e18))
+  {
+    return wrong("'" + text + "' is no size of a cache: 512M, 4G; 0 for none");
+  }
+  return static_cast<std::uint64_t>(all);
 }
 
 std::string_view farSettingsTextOf(std::string_view address)

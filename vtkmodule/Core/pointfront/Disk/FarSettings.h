@@ -36,6 +36,10 @@ struct FarSettings
   static Result<FarSettings> parse(std::string_view text);
 };
 
+/// The bytes of a cache whose size is "512M", "4G" or a number.
+/// Errors  BadArgument: a text that is none.
+Result<std::uint64_t> cacheBytesOf(const std::string& text);
+
 /// The text behind "#far:" in the name of a cloud, up to the next '#'; empty: it has none.
 std::string_view farSettingsTextOf(std::string_view address);
 /// The name without it.

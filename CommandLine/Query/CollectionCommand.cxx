@@ -190,6 +190,13 @@ void CollectionCommand::checkWords() const
   {
     refuse("--epoch: collection " + what_ + " takes no tile in");
   }
+  for (const char* option : { "--name", "--epoch" })
+  {
+    if (app_->count(option) > 0 && (option == std::string("--name") ? name_ : epoch_).empty())
+    {
+      refuse(std::string(option) + ": is empty");
+    }
+  }
   if ((what_ != "add" && what_ != "replace") && !name_.empty())
   {
     refuse("--name: only add and replace name a tile");

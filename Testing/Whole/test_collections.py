@@ -163,6 +163,94 @@ class Collections(ToolTest):
         self.assertEqual(len(self.names()), 4)
         self.assertTrue(self.succeed("verify", self.city, "--json").json["ok"])
 
+    def test_a_link_is_followed(self):
+        """From another folder, too; and it stays a link."""
+        tiles = [self.tile(number) for number in range(4)]
+        self.collection("create", self.city, *tiles[:2])
+        away = self.folder / "away"
+        away.mkdir()
+        for link in (self.folder / "now.pfcollection", away / "now.pfcollection"):
+            link.symlink_to(self.city)
+        (away / "again.pfcollection").symlink_to("now.pfcollection")
+        self.collection("add", self.folder / "now.pfcollection", tiles[2])
+        self.collection("add", away / "again.pfcollection", tiles[3])
+        self.collection("remove", away / "now.pfcollection", tiles[0])
+        self.collection("replace", away / "now.pfcollection", self.tile(1, 3500))
+        self.collection("compact", away / "now.pfcollection")
+        for name in ("now.pfcollection", "away/now.pfcollection", "away/again.pfcollection"):
+            self.assertTrue((self.folder / name).is_symlink(), name)
+            self.assertTrue(self.collection("verify", self.folder / name)["ok"])
+            self.succeed("export", self.folder / name, "-o", self.folder / "x.xyz", "--force")
+        self.assertEqual([tile["address"] for tile in self.collection("list", self.city)["tiles"]],
+                         [f"tiles/tile_{number}.pfront" for number in (2, 3, 1)])
+        self.assertEqual(self.entries(), ["away", "city.pfcollection", "now.pfcollection", "tiles",
+                                          "x.xyz"])
+
+    def test_lie_in_a_linked_folder(self):
+        (self.folder / "one/two").mkdir(parents=True)
+        (self.folder / "short").symlink_to("one/two")
+        city = self.folder / "short/city.pfcollection"
+        self.collection("create", city, self.tile(0))
+        self.collection("add", city, self.tile(1, folder="short"))
+        self.assertTrue(self.collection("verify", city)["ok"])
+        self.collection("remove", city, self.folder / "tiles/tile_0.pfront")
+        self.assertEqual([tile["address"] for tile in self.collection("list", city)["tiles"]],
+                         ["tile_1.pfront"])
+
+    def test_a_name_is_the_one_that_was_chosen_or_none(self):
+        tiles = [self.tile(number) for number in range(4)]
+        self.collection("create", self.city, *tiles[:3])
+        before = self.city.read_bytes()
+        said = self.refuse(1, "collection", "add", self.city, tiles[3], "--name", "tile_1")
+        self.assertIn("has a tile of the name 'tile_1'", said.err)
+        said = self.refuse(1, "collection", "replace", self.city, tiles[2], "--name", "tile_1")
+        self.assertIn("is the tile 'tile_2', which cannot replace the tile 'tile_1'", said.err)
+        said = self.refuse(1, "collection", "replace", self.city, tiles[2], "--name", "other")
+        self.assertIn("has no tile 'other'", said.err)
+        for option in ("--name", "--epoch"):
+            self.refuse(2, "collection", "add", self.city, tiles[3], option, "")
+            for text in ("a\nb", "\x1b[31mred", "a\x7f"):
+                said = self.refuse(1, "collection", "add", self.city, tiles[3], option, text)
+                self.assertIn("control characters", said.err)
+                self.refuse(1, "collection", "replace", self.city, tiles[2], option, text)
+        self.refuse(1, "collection", "create", self.folder / "no.pfcollection", tiles[3],
+                    "--epoch", "a\tb")
+        self.assertEqual(self.city.read_bytes(), before)
+        self.assertEqual(self.entries(), ["city.pfcollection", "tiles"])
+        self.collection("replace", self.city, tiles[2], "--name", "tile_2")
+        self.collection("replace", self.city, tiles[3], "--name", "tile_1")
+        self.collection("add", self.city, tiles[1], "--name", "Straße")
+        self.assertEqual(self.names(), ["Straße", "tile_0", "tile_1", "tile_2"])
+
+    def test_a_file_counts_once(self):
+        """Whatever names lead to it."""
+        tiles = [self.tile(number) for number in range(3)]
+        (self.folder / "linked").symlink_to("tiles")
+        (self.folder / "more").mkdir()
+        (self.folder / "more/hard.pfront").hardlink_to(tiles[0])
+        (self.folder / "more/soft.pfront").symlink_to(tiles[0])
+        others = [self.folder / name for name in (
+            "linked/tile_0.pfront", "more/hard.pfront", "more/soft.pfront",
+            "more/../tiles/tile_0.pfront")]
+        for other in others:
+            said = self.refuse(1, "collection", "create", self.city, tiles[0], other)
+            self.assertIn("are one file; name it once", said.err)
+        self.assertFalse(self.city.exists())
+        self.collection("create", self.city, *tiles[:2])
+        before = self.city.read_bytes()
+        for other in others:
+            said = self.refuse(1, "collection", "add", self.city, other, "--name", "new")
+            self.assertIn("already, as the tile 'tile_0'", said.err)
+        self.refuse(1, "collection", "add", self.city, tiles[2],
+                    self.folder / "linked/tile_2.pfront")
+        self.refuse(1, "collection", "replace", self.city, others[1], "--name", "tile_1")
+        self.assertEqual(self.city.read_bytes(), before)
+        self.collection("replace", self.city, others[1], "--name", "tile_0")
+        self.assertTrue(self.collection("verify", self.city)["ok"])
+        self.collection("undo", self.city)
+        self.assertEqual(self.collection("list", self.city)["tiles"][-1]["address"],
+                         "tiles/tile_0.pfront")
+
     def test_words_that_cannot_be_meant(self):
         store = self.tile(0)
         for arguments in (("create", self.city), ("list", self.city, store), ("mend", self.city),

@@ -1,5 +1,7 @@
 #include "pointfront/Collection/CollectionWriter.h"
 
+#include "pointfront/Base/FileNames.h"
+#include "pointfront/Base/PrintableText.h"
 #include "pointfront/Collection/CollectionState.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Tiles/CollectionCloud.h"
@@ -19,19 +21,22 @@ namespace
 /// nobody else begins.
 struct Begun
 {
+  std::string path; ///< the file itself, where a link was named
   std::unique_ptr<OutputFile> file;
   std::shared_ptr<const PointStore> heads;
   std::optional<CollectionRecord> record; ///< there is one
 };
 
-Result<Begun> begin(const std::string& path)
+Result<Begun> begin(const std::string& name)
 {
+  const std::string path = followedLink(name);
   if (isAddress(path))
   {
     return makeError(Error::Kind::Unsupported,
       path + ": a collection behind an address cannot be changed; change a file and upload that");
   }
   Begun begun;
+  begun.path = path;
   if (!PointStore::looksLikeCollection(path)) // before a file is made beside what is none
   {
     const auto there = PointStore::openHeads(path);
@@ -65,7 +70,56 @@ std::string counted(const char* verb, std::size_t tiles)
   return std::string(verb) + " " + std::to_string(tiles) + (tiles == 1 ? " tile" : " tiles");
 }
 
-/// Names are unique; a plain name that another tile has becomes the tile's address.
+/// Whoever lists tiles line by line sees what they are called.
+Result<void> checkNames(const std::string& path, const std::vector<TileRequest>& requests)
+{
+  const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
+  for (const TileRequest& request : requests)
+  {
+    for (const std::string& name : { request.name, request.epoch })
+    {
+      if (std::any_of(name.begin(), name.end(), isControl))
+      {
+        return makeError(Error::Kind::BadArgument,
+          path + ": '" + printableText(name) +
+            "' has control characters, which no name of a tile or an epoch has");
+      }
+    }
+  }
+  return {};
+}
+
+/// Points of a file count once, whatever names lead to it.
+Result<void> filesApart(const std::string& path, const std::vector<const TileName*>& kept,
+  const std::vector<TileRequest>& requests)
+{
+  FileNames files;
+  std::unordered_map<std::string, const TileName*> tiles;
+  for (const TileName* const tile : kept)
+  {
+    const std::string file = beside(path, tile->address);
+    files.add(file);
+    tiles.emplace(file, tile);
+  }
+  for (const TileRequest& request : requests)
+  {
+    if (const std::optional<std::string> before = files.add(request.path))
+    {
+      const auto known = tiles.find(*before);
+      return makeError(Error::Kind::BadArgument,
+        path +
+          (known == tiles.end()
+              ? ": '" + *before + "' and '" + request.path + "' are one file; name it once"
+              : ": has the file '" + request.path + "' already, as the tile '" +
+                known->second->name +
+                "'; put a new one in its place with: pointfront collection replace"));
+    }
+  }
+  return {};
+}
+
+/// Names are unique; a plain name that another tile has becomes the tile's address, unless somebody
+/// chose it.
 Result<void> nameApart(const std::string& path, const std::vector<const TileName*>& kept,
   std::vector<IncomingTile>& added)
 {
@@ -88,7 +142,7 @@ Result<void> nameApart(const std::string& path, const std::vector<const TileName
     }
     if (!names.insert(tile.is.name).second)
     {
-      tile.is.name = tile.is.address;
+      tile.is.name = tile.named ? tile.is.name : tile.is.address;
       if (!names.insert(tile.is.name).second)
       {
         return makeError(
@@ -99,6 +153,20 @@ Result<void> nameApart(const std::string& path, const std::vector<const TileName
   return {};
 }
 
+std::vector<const TileName*> tilesWithout(
+  const std::unordered_set<std::uint32_t>& removed, const CollectionRecord& record)
+{
+  std::vector<const TileName*> kept;
+  for (const CollectedTile& tile : record.tiles)
+  {
+    if (removed.count(tile.is.id) == 0)
+    {
+      kept.push_back(&tile.is);
+    }
+  }
+  return kept;
+}
+
 struct Change
 {
   std::vector<TileName> removed;
@@ -107,21 +175,21 @@ struct Change
   bool undoes = false;
 };
 
-Result<CollectionReport> apply(
-  const std::string& path, Begun begun, Change change, const CollectionOptions& options)
+Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptions& options)
 {
+  const std::string path = begun.path;
   std::unordered_set<std::uint32_t> removed;
   for (const TileName& tile : change.removed)
   {
     removed.insert(tile.id);
   }
-  std::vector<const TileName*> kept;
-  for (const CollectedTile& tile : begun.record->tiles)
+  const std::vector<const TileName*> kept = tilesWithout(removed, *begun.record);
+  // Older programs took a file twice: their changes can be undone.
+  const Result<void> apart =
+    change.undoes ? Result<void>() : filesApart(path, kept, change.requests);
+  if (!apart)
   {
-    if (removed.count(tile.is.id) == 0)
-    {
-      kept.push_back(&tile.is);
-    }
+    return apart.error();
   }
   Result<std::vector<IncomingTile>> added = openTiles(path, change.requests, options.progress);
   if (!added)
@@ -180,7 +248,10 @@ Result<CollectionReport> createCollection(
     return makeError(Error::Kind::Unsupported,
       path + ": a collection is written to a file; upload that when it is done");
   }
-  if (Result<void> sound = checkAddresses(path, tiles); !sound)
+  Result<void> sound = checkAddresses(path, tiles);
+  sound = sound ? checkNames(path, tiles) : sound;
+  sound = sound ? filesApart(path, {}, tiles) : sound;
+  if (!sound)
   {
     return sound.error();
   }
@@ -214,30 +285,36 @@ Result<CollectionReport> createCollection(
   return report;
 }
 
-Result<CollectionReport> addTiles(
-  const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
+Result<CollectionReport> addTiles(const std::string& collection,
+  const std::vector<TileRequest>& tiles, const CollectionOptions& options)
 {
-  if (Result<void> sound = checkAddresses(path, tiles); !sound)
+  if (Result<void> sound = checkAddresses(collection, tiles); !sound)
   {
     return sound.error();
   }
-  Result<Begun> begun = begin(path);
-  return begun
-    ? apply(path, std::move(*begun), { {}, tiles, counted("add", tiles.size()), false }, options)
-    : begun.error();
+  Result<Begun> begun = begin(collection);
+  const Result<void> named = begun ? checkNames(begun->path, tiles) : begun.error();
+  return named
+    ? apply(std::move(*begun), { {}, tiles, counted("add", tiles.size()), false }, options)
+    : named.error();
 }
 
-Result<CollectionReport> replaceTiles(
-  const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options)
+Result<CollectionReport> replaceTiles(const std::string& collection,
+  const std::vector<TileRequest>& tiles, const CollectionOptions& options)
 {
-  if (Result<void> sound = checkAddresses(path, tiles); !sound)
+  if (Result<void> sound = checkAddresses(collection, tiles); !sound)
   {
     return sound.error();
   }
-  Result<Begun> begun = begin(path);
+  Result<Begun> begun = begin(collection);
   if (!begun)
   {
     return begun.error();
+  }
+  const std::string& path = begun->path;
+  if (const Result<void> named = checkNames(path, tiles); !named)
+  {
+    return named.error();
   }
   Change change{ {}, tiles, counted("replace", tiles.size()), false };
   for (TileRequest& request : change.requests)
@@ -245,10 +322,10 @@ Result<CollectionReport> replaceTiles(
     const std::string name = request.name.empty() ? tileNameOf(request.path) : request.name;
     const std::string address = relativeAddress(path, request.path);
     const auto& known = begun->record->tiles;
-    auto found = std::find_if(known.begin(), known.end(),
+    const auto there = std::find_if(known.begin(), known.end(),
       [&](const CollectedTile& tile) { return tile.is.address == address; });
-    found = found != known.end()
-      ? found
+    const auto found = there != known.end() && request.name.empty()
+      ? there
       : std::find_if(known.begin(), known.end(),
           [&](const CollectedTile& tile) { return tile.is.name == name; });
     if (found == known.end())
@@ -257,6 +334,12 @@ Result<CollectionReport> replaceTiles(
         path + ": has no tile '" + name +
           "' that this one could replace; name that tile with --name, or take it in as another: "
           "pointfront collection add");
+    }
+    if (there != known.end() && there != found)
+    {
+      return makeError(Error::Kind::BadArgument,
+        path + ": '" + request.path + "' is the tile '" + there->is.name +
+          "', which cannot replace the tile '" + name + "' as well; remove one of them first");
     }
     request.name = found->is.name;
     request.epoch = request.epoch.empty() ? found->is.epoch : request.epoch;
@@ -269,17 +352,18 @@ Result<CollectionReport> replaceTiles(
     }
     change.removed.push_back(found->is);
   }
-  return apply(path, std::move(*begun), std::move(change), options);
+  return apply(std::move(*begun), std::move(change), options);
 }
 
-Result<CollectionReport> removeTiles(
-  const std::string& path, const std::vector<std::string>& names, const CollectionOptions& options)
+Result<CollectionReport> removeTiles(const std::string& collection,
+  const std::vector<std::string>& names, const CollectionOptions& options)
 {
-  Result<Begun> begun = begin(path);
+  Result<Begun> begun = begin(collection);
   if (!begun)
   {
     return begun.error();
   }
+  const std::string& path = begun->path;
   Change change{ {}, {}, "", false };
   std::unordered_map<std::string, const TileName*> known;
   known.reserve(2 * begun->record->tiles.size());
@@ -307,16 +391,18 @@ Result<CollectionReport> removeTiles(
     }
   }
   change.what = counted("remove", change.removed.size());
-  return apply(path, std::move(*begun), std::move(change), options);
+  return apply(std::move(*begun), std::move(change), options);
 }
 
-Result<CollectionReport> undoCollection(const std::string& path, const CollectionOptions& options)
+Result<CollectionReport> undoCollection(
+  const std::string& collection, const CollectionOptions& options)
 {
-  Result<Begun> begun = begin(path);
+  Result<Begun> begun = begin(collection);
   if (!begun)
   {
     return begun.error();
   }
+  const std::string& path = begun->path;
   if (begun->record->history.empty())
   {
     return makeError(Error::Kind::BadArgument,
@@ -335,17 +421,18 @@ Result<CollectionReport> undoCollection(const std::string& path, const Collectio
   {
     change.requests.push_back(again(path, tile));
   }
-  return apply(path, std::move(*begun), std::move(change), options);
+  return apply(std::move(*begun), std::move(change), options);
 }
 
 Result<CollectionReport> compactCollection(
-  const std::string& path, const CollectionOptions& options)
+  const std::string& collection, const CollectionOptions& options)
 {
-  Result<Begun> begun = begin(path);
+  Result<Begun> begun = begin(collection);
   if (!begun)
   {
     return begun.error();
   }
+  const std::string& path = begun->path;
   std::vector<TileRequest> requests;
   for (const CollectedTile& tile : begun->record->tiles)
   {

@@ -40,12 +40,16 @@ struct CollectionReport
 //         tile left, nothing to undo; Cancelled.
 // Threads a crew of their own; one change at a time.
 
+// Links  a change follows a symbolic link to a collection. A file counts once: BadArgument where it
+//         is a tile already, or is named twice, by whatever path.
+
 /// A collection of tiles. What is at `path` is replaced.
 Result<CollectionReport> createCollection(
   const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options);
 Result<CollectionReport> addTiles(
   const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options);
-/// Each in place of the tile of the same name, whose epoch it keeps unless it has one.
+/// Each in place of the tile that it names, else of that of its path, else of that of its name,
+/// whose epoch it keeps unless it has one.
 Result<CollectionReport> replaceTiles(
   const std::string& path, const std::vector<TileRequest>& tiles, const CollectionOptions& options);
 /// By their names or their addresses.

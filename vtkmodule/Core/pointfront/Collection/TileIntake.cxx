@@ -70,7 +70,7 @@ Result<IncomingTile> openTile(const std::string& collection, const TileRequest& 
   TileName is{ request.id,
     request.address.empty() ? relativeAddress(collection, request.path) : request.address,
     request.name.empty() ? tileNameOf(request.path) : request.name, request.epoch, *identity };
-  return IncomingTile{ std::move(is), std::move(*cloud) };
+  return IncomingTile{ std::move(is), std::move(*cloud), !request.name.empty() };
 }
 
 /// Told at most ten times a second, from one thread at a time.
@@ -119,7 +119,11 @@ std::string relativeAddress(const std::string& collection, const std::string& pa
   std::error_code failure;
   const fs::path folder = fs::absolute(folderOf(collection), failure).lexically_normal();
   const fs::path tile = fs::absolute(path, failure).lexically_normal();
-  const fs::path relative = tile.lexically_relative(folder);
+  fs::path relative = tile.lexically_relative(folder);
+  if (!relative.empty() && *relative.begin() == "..") // from a linked folder that leads elsewhere
+  {
+    relative = tile.lexically_relative(fs::weakly_canonical(folder, failure));
+  }
   return relative.empty() ? tile.string() : relative.string();
 }
 

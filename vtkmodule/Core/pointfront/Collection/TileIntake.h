@@ -18,7 +18,7 @@ namespace pointfront
 struct TileRequest
 {
   std::string path; ///< path or address of a store, an index, COPC or EPT
-  std::string name = {}; ///< empty: the file's name without its extension
+  std::string name = {}; ///< empty: the file's name without its extension, or with its address
   std::string epoch = {};
   std::uint32_t id = 0; ///< 0: a new one
   std::optional<TileIdentity> identity = std::nullopt; ///< which it must have
@@ -30,6 +30,7 @@ struct IncomingTile
 {
   TileName is; ///< its address is relative to the collection's folder where that is possible
   std::shared_ptr<const StoredCloud> cloud;
+  bool named = false; ///< the request has the name
 
   /// The facts that a collection keeps of it. `kinds` gets its kind unless it has it; layers are
   /// the tile's own.

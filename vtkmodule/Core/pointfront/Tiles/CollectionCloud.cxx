@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/CollectionCloud.h"
 
+#include "pointfront/Base/FileNames.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/StoreFormat.h"
@@ -87,7 +88,7 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
     return read.error();
   }
   const auto record = std::make_shared<const CollectionRecord>(std::move(*read));
-  cloud->tiles_ = std::make_shared<const CollectionTiles>(asked.file, record);
+  cloud->tiles_ = std::make_shared<const CollectionTiles>(followedLink(asked.file), record);
   Result<std::shared_ptr<const CollectionTable>> table =
     CollectionTable::make(asked.file, *cloud->heads_->hierarchy(), cloud->tiles_, asked.epoch);
   if (!table)

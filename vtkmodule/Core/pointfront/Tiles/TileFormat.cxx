@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TileFormat.h"
 
+#include "pointfront/Base/FileNames.h"
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
@@ -10,8 +11,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
-#include <sys/stat.h>
 #include <utility>
 
 namespace pointfront
@@ -47,19 +46,11 @@ std::vector<std::string> matching(const std::string& pattern)
 /// Keeps the first name of each file, and each address once. How many others there were.
 std::size_t dropSameFiles(std::vector<std::string>& files)
 {
-  std::set<std::pair<dev_t, ino_t>> seen;
-  std::set<std::string> addresses;
-  const auto isSame = [&](const std::string& file)
-  {
-    if (isAddress(file))
-    {
-      return !addresses.insert(file).second;
-    }
-    struct stat state = {};
-    return ::stat(file.c_str(), &state) == 0 && !seen.insert({ state.st_dev, state.st_ino }).second;
-  };
+  FileNames seen;
   const std::size_t before = files.size();
-  files.erase(std::remove_if(files.begin(), files.end(), isSame), files.end());
+  files.erase(std::remove_if(files.begin(), files.end(),
+                [&](const std::string& file) { return seen.add(file).has_value(); }),
+    files.end());
   return before - files.size();
 }
 } // namespace

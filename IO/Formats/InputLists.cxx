@@ -3,6 +3,7 @@
 #include "ItemCollection.h"
 #include "STACFormat.h"
 
+#include "pointfront/Base/FileNames.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
 #include "pointfront/Query/InputBox.h"
@@ -26,6 +27,7 @@ Result<void> addItems(const std::string& path, InputBox* box, ListedInputs& inpu
   {
     return list.error();
   }
+  FileNames seen;
   for (const STACItem& item : list->items)
   {
     if (box != nullptr && item.bounds && !item.bounds->overlaps(box->bounds()))
@@ -38,7 +40,11 @@ Result<void> addItems(const std::string& path, InputBox* box, ListedInputs& inpu
     {
       return address.error();
     }
-    inputs.files.push_back(publicForm(*address));
+    std::string file = publicForm(*address);
+    if (!seen.add(file))
+    {
+      inputs.files.push_back(std::move(file));
+    }
   }
   for (const std::string& warning : list->warnings)
   {

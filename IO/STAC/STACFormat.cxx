@@ -2,6 +2,7 @@
 
 #include "ItemCollection.h"
 
+#include "pointfront/Base/FileNames.h"
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/SmallFile.h"
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
-#include <set>
 #include <utility>
 
 namespace pointfront
@@ -65,7 +65,7 @@ Result<std::shared_ptr<const StoredCloud>> STACFormat::open(const std::string& p
     return list.error();
   }
   std::vector<ListedTile> tiles;
-  std::set<std::string> seen;
+  FileNames seen;
   bool told = true; // box and number of each
   for (STACItem& item : list->items)
   {
@@ -80,7 +80,7 @@ Result<std::shared_ptr<const StoredCloud>> STACFormat::open(const std::string& p
         Error::Kind::BadFormat, path + ": item '" + item.name + "' is the list itself");
     }
     const std::string known = publicForm(*address);
-    if (seen.insert(known).second)
+    if (!seen.add(known))
     {
       told = told && item.bounds && item.points;
       tiles.push_back({ known, item.bounds.value_or(Bounds()), item.points.value_or(0),

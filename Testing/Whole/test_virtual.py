@@ -97,6 +97,28 @@ class VirtualClouds(ToolTest):
         refused = self.refuse(1, "build", self.folder / "none.vpc", "-o", self.folder / "no.pfront")
         self.assertIn("ItemCollection", refused.err)
 
+    def test_a_file_counts_once(self):
+        """Whatever names of the list lead to it, with facts and without."""
+        here = self.folder.name
+        (self.folder / "hard.copc.laz").hardlink_to(self.copc)
+        (self.folder / "soft.copc.laz").symlink_to(self.copc)
+        (self.folder / "linked").symlink_to(self.folder)
+        names = ["one.copc.laz", "./one.copc.laz", f"../{here}/one.copc.laz", "hard.copc.laz",
+                 "soft.copc.laz", "linked/one.copc.laz", str(self.copc)]
+        right = self.points(self.copc)
+        for facts in (True, False):
+            items = [item(name, [*self.tile.low, *self.tile.high], self.tile.points)
+                     for name in names]
+            for one in items if not facts else ():
+                del one["properties"]["pc:count"]
+            twice = write_list(self.folder / "twice.vpc", items)
+            told = self.succeed("info", twice, "--together", "--json").json
+            self.assertEqual(told["points"], self.tile.points)
+            self.assertEqual(self.points(twice), right)
+            store = self.folder / "of_list.pfront"
+            made = self.succeed("build", twice, "-o", store, "--force", "--json").json
+            self.assertEqual(made["points_stored"], self.tile.points)
+
     def test_settings_of_a_list_are_those_of_its_tiles(self):
         cache = self.folder / "a cache"
         with FarServer(self.folder) as server:

@@ -327,6 +327,16 @@ const Residency* MappedStores::loading() const
   return found == stores_.end() ? nullptr : &(*found)->store->GetResidency();
 }
 
+bool MappedStores::lacksPoints() const
+{
+  return std::any_of(stores_.begin(), stores_.end(),
+    [](const auto& mapped)
+    {
+      return mapped->store->GetResidency().statistics().failed > 0 ||
+        mapped->store->GetStore()->hierarchy()->fault();
+    });
+}
+
 std::vector<std::string> MappedStores::attributesRead() const
 {
   std::set<std::string> names;

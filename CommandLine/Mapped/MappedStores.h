@@ -69,6 +69,8 @@ public:
   bool needsRender() const;
   /// Something is on its way to memory. Null: nothing is.
   const Residency* loading() const;
+  /// Some points cannot be read, and errors() tells why. The others can be drawn.
+  bool lacksPoints() const;
   /// Attributes that were read, by name.
   std::vector<std::string> attributesRead() const;
   /// The one scheduler that loads all stores.

@@ -16,7 +16,8 @@ bool isNameOfRecord(std::string_view name);
 /// Whether it names a file in FOLDER/work so: points that are kept, also in the making.
 bool isNameOfPoints(std::string_view name);
 
-/// What a folder without a plan has and no build of tiles makes before its plan; empty: nothing.
+/// The name of something in a folder without a plan that no build of tiles makes before its plan;
+/// empty: nothing is there.
 std::string foreignEntry(const std::string& folder);
 
 } // namespace pointfront

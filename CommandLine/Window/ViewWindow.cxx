@@ -140,7 +140,14 @@ Result<void> ViewWindow::open()
   window_->Render();
   tellHeldKeys(window_->GetGenericDisplayId());
   window_->SetWindowName(("PointFront: " + drawing.stores.front()).c_str()); // it obeys from now on
-  return stores_.errors().outcome();
+  const Result<void> drawn = stores_.errors().take();
+  if (!drawn && stores_.lacksPoints()) // by chance it is known that soon
+  {
+    complain(drawn.error().what);
+    window_->Render();
+    return {};
+  }
+  return drawn;
 }
 
 Result<void> ViewWindow::openStores(const DrawingOptions& drawing)

@@ -2,9 +2,11 @@
 
 import os
 import pathlib
+import shutil
 import time
 import unittest
 
+import numpy
 from pictures import read_png
 from windows import PATIENCE, SIZE, Window, WindowTest, share_of_difference
 
@@ -51,6 +53,21 @@ class Files(WindowTest):
         self.assertEqual(status, 0)
         self.assertEqual(len(complaint.splitlines()), 1, complaint)
         self.assertIn("none.txt", complaint)
+
+    def test_a_missing_tile_leaves_the_window_to_the_others(self):
+        """However soon it is met."""
+        for name in "abc":
+            shutil.copy(self.store, self.folder / f"{name}.pfront")
+        city = self.folder / "city.pfcollection"
+        self.succeed("collection", "create", city,
+                     *(self.folder / f"{name}.pfront" for name in "abc"))
+        (self.folder / "b.pfront").unlink()
+        for _ in range(4):
+            window = self.show(city)
+            self.assertGreater(numpy.ptp(window.picture()), 0)
+            status, complaint = window.end()
+            self.assertEqual(status, 0, complaint)
+            self.assertIn("b.pfront", complaint)
 
     def test_a_laz_file_is_shown_at_once_and_becomes_a_store(self):
         laz = self.folder / "trim.laz"

@@ -198,7 +198,7 @@ class Tiles(ToolTest):
         said = self.refuse(1, "build", folder, "-o", land, "--tiles")
         self.assertIn("'tiles'", said.err)
         (land / "tiles").unlink()
-        for name in ("tiles", "work"):  # what a kill before the plan leaves
+        for name in ("tiles", "work"):  # a kill before the plan leaves these
             (land / name).mkdir()
         self.tiles((), folder, edge=SMALL_EDGE)
         theirs = [land / name for name in (

@@ -222,29 +222,31 @@ class Collections(ToolTest):
         self.collection("add", self.city, tiles[1], "--name", "Straße")
         self.assertEqual(self.names(), ["Straße", "tile_0", "tile_1", "tile_2"])
 
-    def test_a_file_counts_once(self):
-        """Whatever names lead to it."""
+    def test_a_path_counts_once_and_a_link_as_often_as_it_is_named(self):
         tiles = [self.tile(number) for number in range(3)]
         (self.folder / "linked").symlink_to("tiles")
         (self.folder / "more").mkdir()
         (self.folder / "more/hard.pfront").hardlink_to(tiles[0])
         (self.folder / "more/soft.pfront").symlink_to(tiles[0])
         others = [self.folder / name for name in (
-            "linked/tile_0.pfront", "more/hard.pfront", "more/soft.pfront",
-            "more/../tiles/tile_0.pfront")]
-        for other in others:
-            said = self.refuse(1, "collection", "create", self.city, tiles[0], other)
-            self.assertIn("are one file; name it once", said.err)
+            "linked/tile_0.pfront", "more/hard.pfront", "more/soft.pfront")]
+        same = self.folder / "more" / ".." / "tiles" / "tile_0.pfront"
+        said = self.refuse(1, "collection", "create", self.city, tiles[0], f"{same}")
+        self.assertIn("are one file; name it once", said.err)
         self.assertFalse(self.city.exists())
+        said = self.succeed("collection", "create", self.city, tiles[0], *others)
+        self.assertIn("are one file by a link (and 2 more such names)", said.err)
+        self.assertEqual(len(self.names()), 4)
+        self.city.unlink()
         self.collection("create", self.city, *tiles[:2])
         before = self.city.read_bytes()
-        for other in others:
-            said = self.refuse(1, "collection", "add", self.city, other, "--name", "new")
-            self.assertIn("already, as the tile 'tile_0'", said.err)
-        self.refuse(1, "collection", "add", self.city, tiles[2],
-                    self.folder / "linked/tile_2.pfront")
-        self.refuse(1, "collection", "replace", self.city, others[1], "--name", "tile_1")
+        said = self.refuse(1, "collection", "add", self.city, same, "--name", "new")
+        self.assertIn("already, as the tile 'tile_0'", said.err)
         self.assertEqual(self.city.read_bytes(), before)
+        for other in others:
+            said = self.succeed("collection", "add", self.city, other, "--name", "new")
+            self.assertIn("are one file by a link", said.err)
+            self.collection("undo", self.city)
         self.collection("replace", self.city, others[1], "--name", "tile_0")
         self.assertTrue(self.collection("verify", self.city)["ok"])
         self.collection("undo", self.city)

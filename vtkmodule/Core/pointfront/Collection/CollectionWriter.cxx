@@ -7,6 +7,7 @@
 #include "pointfront/Tiles/CollectionCloud.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -89,8 +90,20 @@ Result<void> checkNames(const std::string& path, const std::vector<TileRequest>&
   return {};
 }
 
-/// Points of a file count once, whatever names lead to it.
-Result<void> filesApart(const std::string& path, const std::vector<const TileName*>& kept,
+/// One path, however it is written.
+bool isOnePath(const std::string& one, const std::string& other)
+{
+  const auto normal = [](const std::string& path)
+  {
+    std::error_code failure;
+    return std::filesystem::absolute(path, failure).lexically_normal();
+  };
+  return one == other || normal(one) == normal(other);
+}
+
+/// A path counts once. A file with several names, by links, counts as often as it is named, as
+/// whoever made the links may want: the result is a warning, or empty.
+Result<std::string> filesApart(const std::string& path, const std::vector<const TileName*>& kept,
   const std::vector<TileRequest>& requests)
 {
   FileNames files;
@@ -101,9 +114,12 @@ Result<void> filesApart(const std::string& path, const std::vector<const TileNam
     files.add(file);
     tiles.emplace(file, tile);
   }
+  std::string first;
+  std::size_t linked = 0;
   for (const TileRequest& request : requests)
   {
-    if (const std::optional<std::string> before = files.add(request.path))
+    const std::optional<std::string> before = files.add(request.path);
+    if (before && isOnePath(*before, request.path))
     {
       const auto known = tiles.find(*before);
       return makeError(Error::Kind::BadArgument,
@@ -114,8 +130,14 @@ Result<void> filesApart(const std::string& path, const std::vector<const TileNam
                 known->second->name +
                 "'; put a new one in its place with: pointfront collection replace"));
     }
+    linked += before ? 1 : 0;
+    first = before && first.empty() ? "'" + *before + "' and '" + request.path + "'" : first;
   }
-  return {};
+  const std::string more =
+    linked > 1 ? " (and " + std::to_string(linked - 1) + " more such names)" : "";
+  return linked == 0
+    ? std::string()
+    : first + " are one file by a link" + more + "; its points count as often as it is named";
 }
 
 /// Names are unique; a plain name that another tile has becomes the tile's address, unless somebody
@@ -185,8 +207,8 @@ Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptio
   }
   const std::vector<const TileName*> kept = tilesWithout(removed, *begun.record);
   // Older programs took a file twice: their changes can be undone.
-  const Result<void> apart =
-    change.undoes ? Result<void>() : filesApart(path, kept, change.requests);
+  const Result<std::string> apart =
+    change.undoes ? Result<std::string>("") : filesApart(path, kept, change.requests);
   if (!apart)
   {
     return apart.error();
@@ -229,6 +251,7 @@ Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptio
   {
     report->added = count;
     report->removed = removed.size();
+    apart->empty() ? void() : report->warnings.push_back(*apart);
   }
   return report;
 }
@@ -250,10 +273,10 @@ Result<CollectionReport> createCollection(
   }
   Result<void> sound = checkAddresses(path, tiles);
   sound = sound ? checkNames(path, tiles) : sound;
-  sound = sound ? filesApart(path, {}, tiles) : sound;
-  if (!sound)
+  const Result<std::string> apart = sound ? filesApart(path, {}, tiles) : sound.error();
+  if (!apart)
   {
-    return sound.error();
+    return apart.error();
   }
   Result<std::unique_ptr<OutputFile>> file = OutputFile::create(path);
   if (!file)
@@ -281,6 +304,7 @@ Result<CollectionReport> createCollection(
   if (report)
   {
     report->added = count;
+    apart->empty() ? void() : report->warnings.push_back(*apart);
   }
   return report;
 }

@@ -1,4 +1,4 @@
-// What an answer is worth: bytes of the file that is meant, a reason to ask again, or an error.
+// Judges answers: bytes of the file that is meant, a reason to ask again, or an error.
 #include "Conversation.h"
 
 #include "AnswerHeaders.h"

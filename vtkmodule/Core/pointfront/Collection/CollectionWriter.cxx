@@ -1,13 +1,12 @@
 #include "pointfront/Collection/CollectionWriter.h"
 
 #include "pointfront/Base/FileNames.h"
-#include "pointfront/Base/PrintableText.h"
 #include "pointfront/Collection/CollectionState.h"
+#include "pointfront/Collection/TileNames.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Tiles/CollectionCloud.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <optional>
 #include <set>
 #include <unordered_map>
@@ -69,110 +68,6 @@ Result<Begun> begin(const std::string& name)
 std::string counted(const char* verb, std::size_t tiles)
 {
   return std::string(verb) + " " + std::to_string(tiles) + (tiles == 1 ? " tile" : " tiles");
-}
-
-/// Whoever lists tiles line by line sees what they are called.
-Result<void> checkNames(const std::string& path, const std::vector<TileRequest>& requests)
-{
-  const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
-  for (const TileRequest& request : requests)
-  {
-    for (const std::string& name : { request.name, request.epoch })
-    {
-      if (std::any_of(name.begin(), name.end(), isControl))
-      {
-        return makeError(Error::Kind::BadArgument,
-          path + ": '" + printableText(name) +
-            "' has control characters, which no name of a tile or an epoch has");
-      }
-    }
-  }
-  return {};
-}
-
-/// One path, however it is written.
-bool isOnePath(const std::string& one, const std::string& other)
-{
-  const auto normal = [](const std::string& path)
-  {
-    std::error_code failure;
-    return std::filesystem::absolute(path, failure).lexically_normal();
-  };
-  return one == other || normal(one) == normal(other);
-}
-
-/// A path counts once. A file with several names, by links, counts as often as it is named, as
-/// whoever made the links may want: the result is a warning, or empty.
-Result<std::string> filesApart(const std::string& path, const std::vector<const TileName*>& kept,
-  const std::vector<TileRequest>& requests)
-{
-  FileNames files;
-  std::unordered_map<std::string, const TileName*> tiles;
-  for (const TileName* const tile : kept)
-  {
-    const std::string file = beside(path, tile->address);
-    files.add(file);
-    tiles.emplace(file, tile);
-  }
-  std::string first;
-  std::size_t linked = 0;
-  for (const TileRequest& request : requests)
-  {
-    const std::optional<std::string> before = files.add(request.path);
-    if (before && isOnePath(*before, request.path))
-    {
-      const auto known = tiles.find(*before);
-      return makeError(Error::Kind::BadArgument,
-        path +
-          (known == tiles.end()
-              ? ": '" + *before + "' and '" + request.path + "' are one file; name it once"
-              : ": has the file '" + request.path + "' already, as the tile '" +
-                known->second->name +
-                "'; put a new one in its place with: pointfront collection replace"));
-    }
-    linked += before ? 1 : 0;
-    first = before && first.empty() ? "'" + *before + "' and '" + request.path + "'" : first;
-  }
-  const std::string more =
-    linked > 1 ? " (and " + std::to_string(linked - 1) + " more such names)" : "";
-  return linked == 0
-    ? std::string()
-    : first + " are one file by a link" + more + "; its points count as often as it is named";
-}
-
-/// Names are unique; a plain name that another tile has becomes the tile's address, unless somebody
-/// chose it.
-Result<void> nameApart(const std::string& path, const std::vector<const TileName*>& kept,
-  std::vector<IncomingTile>& added)
-{
-  std::unordered_set<std::string> names;
-  std::unordered_set<std::string> addresses;
-  names.reserve(kept.size());
-  addresses.reserve(kept.size());
-  for (const TileName* const tile : kept)
-  {
-    names.insert(tile->name);
-    addresses.insert(tile->address);
-  }
-  for (IncomingTile& tile : added)
-  {
-    if (!addresses.insert(tile.is.address).second)
-    {
-      return makeError(Error::Kind::BadArgument,
-        path + ": has the tile '" + tile.is.address +
-          "' already; take a new file of it in with: pointfront collection replace");
-    }
-    if (!names.insert(tile.is.name).second)
-    {
-      tile.is.name = tile.named ? tile.is.name : tile.is.address;
-      if (!names.insert(tile.is.name).second)
-      {
-        return makeError(
-          Error::Kind::BadArgument, path + ": has a tile of the name '" + tile.is.name + "'");
-      }
-    }
-  }
-  return {};
 }
 
 std::vector<const TileName*> tilesWithout(

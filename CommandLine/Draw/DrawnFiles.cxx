@@ -1,5 +1,6 @@
 #include "DrawnFiles.h"
 
+#include "CancelSignal.h"
 #include "WholeFile.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
@@ -70,9 +71,15 @@ Result<void> checkDrawnFiles(const std::vector<OutputTarget>& targets,
     {
       return free;
     }
+    // The file of this test goes in any case, also where a signal would end the process at once.
+    const CancelSignal finishing(CancelSignal::Mode::Finish);
     if (Result<void> writable = checkWritable(written[i].path); !writable)
     {
       return writable;
+    }
+    if (CancelSignal::requested())
+    {
+      return makeError(Error::Kind::Cancelled, "stopped; nothing was written");
     }
   }
   return {};

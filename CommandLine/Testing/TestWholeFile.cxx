@@ -1,10 +1,18 @@
+#include "CancelSignal.h"
+#include "DrawnFiles.h"
 #include "WholeFile.h"
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
+#include <thread>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 namespace pointfront
 {
@@ -54,6 +62,30 @@ TEST(WholeFile, SaysWhyItCannotBeWritten)
   EXPECT_FALSE(checkWritable((folder / "none" / "a.png").string()));
   EXPECT_TRUE(checkWritable((folder / "a.png").string()));
   EXPECT_EQ(entries(folder), 0u);
+}
+
+/// A command that draws tests its files before, and a signal ends it at once then.
+TEST(WholeFile, ASignalLeavesNoFileOfTheTest)
+{
+  const fs::path folder = freshFolder("WholeFile.Signal");
+  const std::string path = (folder / "a.png").string();
+  for (int round = 0; round < 20; ++round)
+  {
+    const ::pid_t child = ::fork();
+    if (child == 0)
+    {
+      const CancelSignal leaving(CancelSignal::Mode::Leave);
+      while (checkDrawnFiles({ { path, FileKind::Picture } }, {}, {}))
+      {
+      }
+      ::_exit(1);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(20 + round % 3));
+    ::kill(child, SIGINT);
+    int status = 0;
+    ASSERT_EQ(::waitpid(child, &status, 0), child);
+    ASSERT_EQ(entries(folder), 0u) << round;
+  }
 }
 
 } // namespace pointfront

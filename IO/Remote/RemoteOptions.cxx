@@ -219,13 +219,26 @@ RemoteOptions RemoteOptions::ofEnvironment()
   RemoteOptions options;
   if (const std::string text = setting("POINTFRONT_REMOTE_TIMEOUT"); !text.empty())
   {
-    const double seconds = std::strtod(text.c_str(), nullptr);
-    if (seconds > 0.0 && seconds < 1e6)
+    char* end = nullptr;
+    const double seconds = std::strtod(text.c_str(), &end);
+    if (*end == '\0' && seconds >= 0.001 && seconds < 1e6)
     {
       options.timeLimit = std::chrono::milliseconds(static_cast<long>(1000.0 * seconds));
     }
+    else
+    {
+      options.fault = makeError(Error::Kind::BadArgument,
+        "POINTFRONT_REMOTE_TIMEOUT is '" + text + "'; write seconds from 0.001 to a million");
+    }
   }
-  options.refusePrivate = setting("POINTFRONT_REMOTE_PRIVATE") == "refuse";
+  // A misspelt refusal that is passed over would reach servers that it is set to keep away from.
+  const std::string ofPrivate = setting("POINTFRONT_REMOTE_PRIVATE");
+  options.refusePrivate = ofPrivate == "refuse";
+  if (!ofPrivate.empty() && !options.refusePrivate && ofPrivate != "allow")
+  {
+    options.fault = makeError(Error::Kind::BadArgument,
+      "POINTFRONT_REMOTE_PRIVATE is '" + ofPrivate + "'; write refuse or allow");
+  }
   if (const Result<void> learnt = learnCredentialsOfEnvironment(); !learnt)
   {
     options.fault = learnt.error();

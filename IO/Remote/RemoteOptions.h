@@ -27,7 +27,7 @@ struct RemoteOptions
   std::optional<Error> fault; ///< a fault of the environment: the error of each opening
 
   /// The defaults, with what the environment says: POINTFRONT_REMOTE_TIMEOUT (seconds),
-  /// POINTFRONT_REMOTE_PRIVATE=refuse, and POINTFRONT_FAR (Credentials.h).
+  /// POINTFRONT_REMOTE_PRIVATE=refuse|allow, and POINTFRONT_FAR (Credentials.h).
   static RemoteOptions ofEnvironment();
 };
 

@@ -59,6 +59,8 @@ def columns_of(arrays):
     for name in arrays:
         if not isinstance(name, str):
             raise TypeError(f"the name of an array is a text, not {name!r}")
+        if not name:
+            raise ValueError("an array has an empty name; name each attribute")
     places = _places(arrays)
     by_axis = "position" not in arrays
     columns = {}

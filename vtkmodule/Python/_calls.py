@@ -56,6 +56,10 @@ def _count_32(number):
     return whole_number(number, (1 << 32) - 1)
 
 
+def _threads(number):
+    return whole_number(number, 1024)
+
+
 def _real(number):
     number = float(number)
     if not math.isfinite(number):
@@ -79,7 +83,7 @@ def _depth(bits):
 # Options that pointfront.build() takes besides its named arguments, and what makes a value plain.
 _OPTIONS = {
     "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool,
-    "memory_limit": whole_number, "number_of_threads": _count_32,
+    "memory_limit": whole_number, "number_of_threads": _threads,
     "temporary_folder": os.fsdecode, "node_points": _count_32, "precision": _step,
     "color_depth": _depth, "crs": os.fsdecode, "assumed_crs": os.fsdecode,
     "normals_neighbors": _count_32, "normals_radius": _real, "normals_error": _real,

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace pointfront
@@ -56,6 +58,31 @@ TEST(Credentials, WhatIsWrongIsAnErrorWithoutSecrets)
     EXPECT_EQ(learnt.error().what.find("secret"), std::string::npos) << learnt.error().what;
     EXPECT_TRUE(headersFor("https://h.example").empty());
   }
+}
+
+TEST(RemoteOptions, OfSettingsThatSayNothingAreAFault)
+{
+  const std::pair<const char*, const char*> wrong[] = { { "POINTFRONT_REMOTE_TIMEOUT", "soon" },
+    { "POINTFRONT_REMOTE_TIMEOUT", "60s" }, { "POINTFRONT_REMOTE_TIMEOUT", "0" },
+    { "POINTFRONT_REMOTE_TIMEOUT", "nan" }, { "POINTFRONT_REMOTE_PRIVATE", "Refuse" } };
+  for (const auto& [name, value] : wrong)
+  {
+    ::setenv(name, value, 1);
+    const RemoteOptions options = RemoteOptions::ofEnvironment();
+    ::unsetenv(name);
+    ASSERT_TRUE(options.fault) << name << "=" << value;
+    EXPECT_EQ(options.fault->kind, Error::Kind::BadArgument);
+    EXPECT_NE(options.fault->what.find(name), std::string::npos);
+    EXPECT_NE(options.fault->what.find(value), std::string::npos);
+  }
+  ::setenv("POINTFRONT_REMOTE_TIMEOUT", "2.5", 1);
+  ::setenv("POINTFRONT_REMOTE_PRIVATE", "refuse", 1);
+  const RemoteOptions options = RemoteOptions::ofEnvironment();
+  ::unsetenv("POINTFRONT_REMOTE_TIMEOUT");
+  ::unsetenv("POINTFRONT_REMOTE_PRIVATE");
+  EXPECT_FALSE(options.fault);
+  EXPECT_EQ(options.timeLimit.count(), 2500);
+  EXPECT_TRUE(options.refusePrivate);
 }
 
 } // namespace pointfront

@@ -102,6 +102,13 @@ class Writing(unittest.TestCase):
         with pointfront.open(self.folder / "whole.pfront") as cloud:
             self.assertEqual(sorted(cloud.points()["a"]), [1, 2, 3])
 
+    def test_an_array_without_a_name_is_refused(self):
+        target = self.folder / "nameless.pfront"
+        arrays = {"position": numpy.arange(9.0).reshape(3, 3), "": numpy.arange(3)}
+        with self.assertRaisesRegex(ValueError, "empty name"):
+            pointfront.build(arrays, target, preview=False)
+        self.assertFalse(target.exists())
+
     def test_numbers_that_cannot_be_meant_are_refused(self):
         xyz = {"position": numpy.arange(9.0).reshape(3, 3)}
         target = self.folder / "none.pfront"
@@ -112,7 +119,7 @@ class Writing(unittest.TestCase):
                 *((name, value) for name in reals for value in (numpy.nan, numpy.inf)),
                 *((name, value) for name in ("number_of_threads", "node_points", "memory_limit",
                                              "preview_points") for value in (-1, 2**64)),
-                ("number_of_threads", 2**32), ("node_points", 2**32), ("color_depth", 12),
+                ("number_of_threads", 1025), ("node_points", 2**32), ("color_depth", 12),
                 ("normals_classes", [256])):
             with self.subTest(name=name, value=value):
                 with self.assertRaisesRegex(ValueError, name):

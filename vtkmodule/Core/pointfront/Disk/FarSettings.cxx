@@ -1,5 +1,6 @@
 #include "pointfront/Disk/FarSettings.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 
 #include <algorithm>
@@ -171,8 +172,8 @@ Result<std::uint64_t> cacheBytesOf(const std::string& text)
 {
   char* end = nullptr;
   const double bytes = std::strtod(text.c_str(), &end);
-  const char unit = static_cast<char>(std::toupper(static_cast<unsigned char>(*end)));
-  const std::size_t power = std::string("\0KMGT", 5).find(unit);
+  const std::string unit = lowered(std::string_view(end, *end == '\0' ? 0 : 1));
+  const std::size_t power = unit.empty() ? 0 : std::string("?kmgt").find(unit, 1);
   const double all = bytes * double(std::uint64_t(1) << (10 * std::min<std::size_t>(power, 5)));
   if (end == text.c_str() || power > 4 || (power > 0 && end[1] != '\0') ||
     !(all >= 0.0 && all < 9e18))

@@ -65,6 +65,7 @@ CollectionState::CollectionState(std::string path, std::shared_ptr<const PointSt
 void CollectionState::takeTiles(std::vector<IncomingTile>& added, const CollectionOptions& options)
 {
   const HeadSizes sizes = sizesFor(next_.tiles.size() + added.size(), options.overviewPoints);
+  next_.tiles.reserve(next_.tiles.size() + added.size());
   for (IncomingTile& tile : added)
   {
     tile.is.id = tile.is.id == 0 ? next_.nextId++ : tile.is.id;
@@ -104,6 +105,7 @@ Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t
   std::vector<std::size_t> places;
   std::vector<AlikeTiles> alike = alikeTiles(places);
   std::vector<QuantisationGrid> grids;
+  grids.reserve(next_.tiles.size() + 1);
   for (const CollectedTile& tile : next_.tiles)
   {
     grids.push_back(tile.grid);
@@ -165,6 +167,7 @@ std::unique_ptr<HeadItem> CollectionState::storedItem(NodeIndex node) const
   auto item = std::make_unique<HeadItem>();
   item->stored = node;
   item->storedPoints = row.pointCount;
+  item->children.reserve(row.childCount);
   for (std::uint32_t c = 0; c < row.childCount; ++c)
   {
     item->children.push_back(storedItem(row.firstChild + c));

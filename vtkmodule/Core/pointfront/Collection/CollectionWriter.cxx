@@ -101,17 +101,17 @@ Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptio
     removed.insert(tile.id);
   }
   const std::vector<const TileName*> kept = tilesWithout(removed, *begun.record);
-  // Older programs took a file twice: their changes can be undone.
-  const Result<std::string> apart =
-    change.undoes ? Result<std::string>("") : filesApart(path, kept, change.requests);
-  if (!apart)
-  {
-    return apart.error();
-  }
   Result<std::vector<IncomingTile>> added = openTiles(path, change.requests, options.progress);
   if (!added)
   {
     return added.error();
+  }
+  // Older programs took a file twice: their changes can be undone.
+  const Result<std::string> apart =
+    change.undoes ? Result<std::string>("") : filesApart(path, kept, change.requests, *added);
+  if (!apart)
+  {
+    return apart.error();
   }
   Result<void> fits = nameApart(path, kept, *added);
   const std::string system = kept.empty() ? "" : projectionOf(begun.record->whole);
@@ -168,7 +168,7 @@ Result<CollectionReport> createCollection(
   }
   Result<void> sound = checkAddresses(path, tiles);
   sound = sound ? checkNames(path, tiles) : sound;
-  const Result<std::string> apart = sound ? filesApart(path, {}, tiles) : sound.error();
+  const Result<std::string> apart = sound ? filesApart(path, {}, tiles, {}) : sound.error();
   if (!apart)
   {
     return apart.error();

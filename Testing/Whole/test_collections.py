@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from tool import SLOWNESS, TOOL, ToolTest, spent_by_children
+from tool import SLOWNESS, TOOL, ToolTest, spent_by_children, write_las
 
 KILLS = int(os.environ.get("POINTFRONT_KILLS", "60" if SLOWNESS == 1 else "10"))
 SIDE = 4  # tiles beside each other
@@ -78,6 +78,40 @@ class Collections(ToolTest):
         self.succeed("bench", self.city, "--path", "zoom", "--frames", "20", "--stats", bench)
         self.assertGreater(json.loads(bench.read_text())["points_drawn"]["max"], 1000)
         self.assertEqual(len(stores), 8)
+
+    def reds(self, cloud):
+        """The reds of all points, by their places."""
+        text = self.folder / "colours.csv"
+        self.succeed("export", cloud, "-o", text, "--force", "--progress", "none")
+        names, *rows = (line.split(",") for line in text.read_text().splitlines())
+        at = names.index("red")
+        return sorted((row[0], row[1], row[at]) for row in rows)
+
+    def test_has_the_colours_that_a_build_of_its_files_has(self):
+        """LAS files do not say how deep their colours are. Those of 8 bits beside those of 16 are
+        widened in a build; so they are where indices draw the files in place."""
+        draw = random.Random(7)
+        made = []
+        for number, top in enumerate((255, 65535)):
+            points = [(100 * number + 100 * draw.random(), 100 * draw.random(), draw.random(),
+                       *(draw.randrange(top + 1) for _ in range(3))) for _ in range(3000)]
+            made.append(write_las(self.folder / f"of_{top}.las", points))
+            self.succeed("index", made[-1], "--progress", "none")
+        narrow, wide = (f"{las}.pfindex" for las in made)
+        self.succeed("build", *made, "-o", self.folder / "both.pfront", "--progress", "none")
+        expected = self.reds(self.folder / "both.pfront")
+        self.assertTrue(all(int(red) % 257 == 0 for x, _, red in expected if float(x) < 99))
+        listed = self.folder / "both.pfronts"
+        listed.write_text(f"{narrow}\n{wide}\n")
+        self.assertEqual(self.reds(listed), expected)
+        self.collection("create", self.city, narrow, wide)
+        self.assertEqual(self.reds(self.city), expected)
+        self.assertTrue(self.collection("verify", self.city)["ok"])
+        alone = self.folder / "grown.pfcollection"  # its heads have 8 bits until the second comes
+        self.collection("create", alone, narrow)
+        self.assertLess(max(int(row[2]) for row in self.reds(alone)), 256)
+        self.collection("add", alone, wide)
+        self.assertEqual(self.reds(alone), expected)
 
     def test_epochs_are_drawn_and_exported_alone(self):
         """Each epoch's picture is that of its stores alone, and so are its points."""

@@ -24,7 +24,7 @@ HeadSizes sizesFor(std::size_t tiles, std::uint64_t overviewPoints)
   return { static_cast<std::uint32_t>(std::clamp(share, fewest, most)) };
 }
 
-/// A cloud without points, for its attributes and its grid.
+/// A cloud without points, for its attributes, its grid and the depth of its colours.
 StoreDescription emptied(StoreDescription whole)
 {
   whole.pointCount = 0;
@@ -36,9 +36,22 @@ StoreDescription emptied(StoreDescription whole)
   whole.warnings.clear();
   for (std::size_t c = 0; c < whole.schema.size(); ++c)
   {
-    whole.ranges[c] = emptyRange(whole.schema[c]);
+    const bool tellsDepth = whole.schema[c].name == "rgb";
+    whole.ranges[c] = tellsDepth ? whole.ranges[c] : emptyRange(whole.schema[c]);
   }
   return whole;
+}
+
+/// The whole alone does not say whether small colours have 16 bits; its tiles do.
+HeldColours coloursOf(const CollectionRecord& record)
+{
+  HeldColours held = heldColours(record.whole);
+  for (std::size_t t = 0; t < record.tiles.size() && held == HeldColours::Eight; ++t)
+  {
+    held =
+      heldColours(record.description(t, "")) == HeldColours::Sixteen ? HeldColours::Sixteen : held;
+  }
+  return held;
 }
 
 bool codedAlike(const StoreDescription& a, const StoreDescription& b)
@@ -59,6 +72,7 @@ CollectionState::CollectionState(std::string path, std::shared_ptr<const PointSt
     next_.nextId = last_->nextId;
     next_.kinds = last_->kinds;
     next_.history = std::move(last_->history);
+    lastColours_ = coloursOf(*last_);
   }
 }
 
@@ -99,6 +113,27 @@ std::vector<AlikeTiles> CollectionState::alikeTiles(std::vector<std::size_t>& pl
   return alike;
 }
 
+/// How stored points become those of the next state, if they differ.
+Result<void> CollectionState::chooseAdaption()
+{
+  const bool widened =
+    lastColours_ == HeldColours::Eight && heldColours(next_.whole) == HeldColours::Sixteen;
+  recoded_ = last_ && (widened || !codedAlike(next_.whole, last_->whole));
+  if (!recoded_)
+  {
+    return {};
+  }
+  StoreDescription before = last_->whole;
+  before.structure = lastColours_ == HeldColours::Sixteen ? "octree" : before.structure;
+  Result<TileDescription> adaption = TileDescription::of(path_, { &next_.whole, &before }, {});
+  if (!adaption)
+  {
+    return adaption.error();
+  }
+  adaption_ = std::make_unique<TileDescription>(std::move(*adaption));
+  return {};
+}
+
 /// Describes all tiles together, as the next state shows them. The parts of the last `added`.
 Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t added)
 {
@@ -111,9 +146,13 @@ Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t
     grids.push_back(tile.grid);
   }
   Result<TileDescription> described = TileDescription::of(path_, alike, grids, {});
-  if (described && last_ && !codedAlike(described->whole, last_->whole))
+  const bool wasDeep = last_ && heldColours(last_->whole) == HeldColours::Sixteen;
+  if (described && last_ &&
+    (!codedAlike(described->whole, last_->whole) ||
+      (wasDeep && heldColours(described->whole) != HeldColours::Sixteen)))
   {
-    // The heads keep what they have: fewer attributes, or a coarser grid, come with `compact`.
+    // The heads keep what they have: fewer attributes, a coarser grid, or colours that are not
+    // widened any more, come with `compact`.
     std::vector<std::string> warnings = std::move(described->whole.warnings);
     AlikeTiles known;
     known.begin(emptied(last_->whole));
@@ -133,16 +172,9 @@ Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t
   next_.whole = std::move(described->whole);
   next_.whole.path.clear();
   next_.whole.structure = "collection";
-  recoded_ = last_ && !codedAlike(next_.whole, last_->whole);
-  if (recoded_)
+  if (Result<void> done = chooseAdaption(); !done)
   {
-    Result<TileDescription> adaption =
-      TileDescription::of(path_, { &next_.whole, &last_->whole }, {});
-    if (!adaption)
-    {
-      return adaption.error();
-    }
-    adaption_ = std::make_unique<TileDescription>(std::move(*adaption));
+    return done.error();
   }
   std::vector<TileDescription::Part> parts;
   for (auto tile = next_.tiles.end() - static_cast<std::ptrdiff_t>(added);

@@ -39,6 +39,7 @@ private:
   void takeTiles(std::vector<IncomingTile>& added, const CollectionOptions& options);
   std::vector<AlikeTiles> alikeTiles(std::vector<std::size_t>& places) const;
   Result<std::vector<TileDescription::Part>> describe(std::size_t added);
+  Result<void> chooseAdaption();
   Result<void> openTrees();
   void renameTrees();
   std::unique_ptr<HeadItem> storedItem(NodeIndex node) const;
@@ -51,6 +52,7 @@ private:
   std::shared_ptr<const PointStore> before_;
   std::optional<CollectionRecord> last_; ///< without tiles and history from change() on
   CollectionRecord next_;
+  HeldColours lastColours_ = HeldColours::None; ///< in the whole of the state before
   bool recoded_ = false; ///< stored points are not as the next state has them
   std::unique_ptr<TileDescription> adaption_; ///< part 1: of the whole of the state before
   std::map<HeadTreeKey, HeadTree> trees_;

@@ -3,6 +3,7 @@
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Disk/TemporaryFile.h"
+#include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Threads/ThreadCrew.h"
@@ -244,6 +245,21 @@ Result<void> checkSystems(const std::string& collection, const std::vector<Incom
   return {};
 }
 
+namespace
+{
+/// Files whose 16-bit colours have 8 bits are another kind than those that have 16.
+void markEightBits(StoreDescription& kind)
+{
+  if (const auto colour = wideColourColumn(kind.schema))
+  {
+    for (std::array<double, 2>& ends : kind.ranges[*colour].components)
+    {
+      ends = { 0.0, 255.0 };
+    }
+  }
+}
+} // namespace
+
 CollectedTile IncomingTile::facts(std::vector<StoreDescription>& kinds) const
 {
   const StoreDescription& own = cloud->description();
@@ -263,6 +279,7 @@ CollectedTile IncomingTile::facts(std::vector<StoreDescription>& kinds) const
   kind.metadata.erase(std::remove_if(kind.metadata.begin(), kind.metadata.end(),
                         [](const auto& record) { return record.owner != "LASF_Projection"; }),
     kind.metadata.end());
+  const HeldColours held = heldColours(own);
   for (ColumnRange& range : kind.ranges)
   {
     for (std::array<double, 2>& ends : range.components)
@@ -270,6 +287,7 @@ CollectedTile IncomingTile::facts(std::vector<StoreDescription>& kinds) const
       tile.ranges.push_back(std::exchange(ends, { 0.0, 0.0 }));
     }
   }
+  held == HeldColours::Eight ? markEightBits(kind) : void();
   for (Layer& layer : kind.layers)
   {
     tile.layers.emplace_back(std::exchange(layer.pointCount, 0), std::exchange(layer.nodeCount, 0));

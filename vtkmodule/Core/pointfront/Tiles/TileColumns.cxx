@@ -5,10 +5,55 @@
 #include "pointfront/Store/ColumnStatistics.h"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace pointfront
 {
+namespace
+{
+constexpr const char* colourName = "rgb";
+constexpr double mostEight = 255.0;
+
+/// Larger ones stay: a sample of a file may have missed that it has some.
+double widened(double value)
+{
+  return value <= mostEight ? 257.0 * value : value;
+}
+
+void widen(std::vector<std::byte>& values)
+{
+  for (std::size_t at = 0; at + 2 <= values.size(); at += 2)
+  {
+    std::uint16_t value;
+    std::memcpy(&value, values.data() + at, sizeof value);
+    value = value <= mostEight ? static_cast<std::uint16_t>(257u * value) : value;
+    std::memcpy(values.data() + at, &value, sizeof value);
+  }
+}
+} // namespace
+
+HeldColours heldColours(const StoreDescription& cloud)
+{
+  const auto column = cloud.schema.find(colourName);
+  if (!column || *column >= cloud.ranges.size())
+  {
+    return HeldColours::None;
+  }
+  double largest = 0.0;
+  for (const std::array<double, 2>& ends : cloud.ranges[*column].components)
+  {
+    largest = std::max(largest, ends[1]);
+  }
+  const ScalarType type = cloud.schema[*column].type;
+  if (type != ScalarType::UInt16 || largest <= 0.0)
+  {
+    return type == ScalarType::UInt8 ? HeldColours::Eight : HeldColours::None;
+  }
+  const bool store = cloud.structure == "octree" || cloud.structure == "kdtree";
+  return largest > mostEight || (store && !cloud.rangesAreSampled) ? HeldColours::Sixteen
+                                                                   : HeldColours::Eight;
+}
 
 void TileColumns::recodeRadii(double ownBase, double commonBase)
 {
@@ -51,17 +96,29 @@ void TileColumns::adapt(
     {
       columns.emplace_back(points * attribute.bytes());
       convertColumn(own_[*mapping.column], values.data(), attribute, columns.back().data(), points);
-      continue;
     }
-    if (radii_ && attribute.name == splatRadiusAttribute)
+    else
     {
-      std::transform(values.begin(), values.end(), values.begin(),
-        [this](std::byte code) { return (*radii_)[std::to_integer<std::size_t>(code)]; });
+      columns.push_back(std::move(values));
     }
-    columns.push_back(std::move(values));
+    recode(attribute, columns.back());
   }
   node.selection = wanted;
   node.columns = std::move(columns);
+}
+
+/// Codes and depths that differ where types are the same.
+void TileColumns::recode(const Attribute& common, std::vector<std::byte>& values) const
+{
+  if (radii_ && common.name == splatRadiusAttribute)
+  {
+    std::transform(values.begin(), values.end(), values.begin(),
+      [this](std::byte code) { return (*radii_)[std::to_integer<std::size_t>(code)]; });
+  }
+  else if (colours_ && common.name == colourName)
+  {
+    widen(values);
+  }
 }
 
 std::optional<std::uint32_t> TileColumns::ownComponent(
@@ -91,6 +148,10 @@ ValueRange TileColumns::adapted(
       codes = { std::min(codes.low, double(recoded)), std::max(codes.high, double(recoded)) };
     }
     return codes;
+  }
+  if (colours_ && common.name == colourName)
+  {
+    return { widened(range.low), widened(range.high) };
   }
   const Attribute& from = own_[*mapping.column];
   if (!mapping.converted || (from.scale == common.scale && from.offset == common.offset))

@@ -12,6 +12,16 @@
 namespace pointfront
 {
 
+/// How deep a cloud's 16-bit colours ("rgb") are, as a build decides it. Stores of ours know it,
+/// and so does the type of 8 bits; of files that are read in place the largest value tells it.
+enum class HeldColours
+{
+  None, ///< no colours, or all of them black
+  Eight,
+  Sixteen
+};
+HeldColours heldColours(const StoreDescription& cloud);
+
 /// How the columns of one tile become those that all tiles have.
 /// Lacking  columns are zeros.
 /// Threads  const functions from any thread.
@@ -25,6 +35,8 @@ public:
   }
   /// Codes of radii are multiples of another base here than in the common column.
   void recodeRadii(double ownBase, double commonBase);
+  /// Colours have 8 bits here and 16 in the common column: each becomes 257 times as large.
+  void widenColours() { colours_ = true; }
 
   bool lacks(std::size_t column) const { return !mappings_[column].column; }
   bool converts(std::size_t column) const { return mappings_[column].converted; }
@@ -41,9 +53,12 @@ public:
   ColumnRange range(const StoreDescription& own, std::size_t column, const Attribute& common) const;
 
 private:
+  void recode(const Attribute& common, std::vector<std::byte>& values) const;
+
   AttributeSchema own_;
   std::vector<ColumnMapping> mappings_; ///< by common column
   std::optional<std::array<std::byte, 256>> radii_; ///< codes, where their base is another one
+  bool colours_ = false; ///< they are widened
 };
 
 } // namespace pointfront

@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TileDescription.h"
 
+#include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Store/ColumnStatistics.h"
 
@@ -103,6 +104,9 @@ Result<std::vector<TileColumns>> chooseColumns(StoreDescription& whole, const Ti
   }
   whole.schema = std::move(common->schema);
   const auto radius = whole.schema.find(splatRadiusAttribute);
+  const auto colour = wideColourColumn(whole.schema);
+  const bool deep = std::any_of(tiles.begin(), tiles.end(),
+    [](const DescribedTiles& tile) { return heldColours(*tile.is) == HeldColours::Sixteen; });
   std::vector<TileColumns> columns;
   for (std::size_t t = 0; t < tiles.size(); ++t)
   {
@@ -111,6 +115,10 @@ Result<std::vector<TileColumns>> chooseColumns(StoreDescription& whole, const Ti
     if (radius && !columns.back().lacks(*radius) && base != whole.splatRadiusBase)
     {
       columns.back().recodeRadii(base, whole.splatRadiusBase);
+    }
+    if (colour && deep && heldColours(*tiles[t].is) == HeldColours::Eight)
+    {
+      columns.back().widenColours();
     }
   }
   return columns;
@@ -317,7 +325,10 @@ Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
     whole.ranges.push_back(emptyRange(whole.schema[c]));
     for (std::size_t t = 0; t < tiles.size(); ++t)
     {
-      addRange(whole.ranges[c], (*columns)[t].range(*tiles[t].is, c, whole.schema[c]));
+      if (tiles[t]->pointCount > 0)
+      {
+        addRange(whole.ranges[c], (*columns)[t].range(*tiles[t].is, c, whole.schema[c]));
+      }
     }
   }
   whole.computed = computedColumns(whole, tiles);

@@ -194,14 +194,12 @@ View viewOf(vtkRenderer* renderer, vtkActor* actor, const ViewportMargin& margin
   renderer->GetTiledSizeAndOrigin(&size[0], &size[1], &origin[0], &origin[1]);
   vtkMatrix4x4* toClip = renderer->GetActiveCamera()->GetCompositeProjectionTransformMatrix(
     renderer->GetTiledAspectRatio(), -1.0, 1.0);
-  vtkNew<vtkMatrix4x4> storeToClip;
-  vtkMatrix4x4::Multiply4x4(toClip, actor->GetMatrix(), storeToClip);
   FrameCamera frame;
-  frame.viewToClip = columnsOf(storeToClip);
+  frame.viewToClip = columnsOf(toClip);
   frame.width = std::max(1, size[0]);
   frame.height = std::max(1, size[1]);
   frame.setViewport(frame.width, frame.height, margin);
-  return View::fromMatrix(frame.viewToClip, frame.width, frame.height);
+  return View::ofModel(columnsOf(actor->GetMatrix()), frame.viewToClip, frame.width, frame.height);
 }
 
 } // namespace pointfront

@@ -86,4 +86,60 @@ TEST(ScreenError, ASphereIsOutsideOnlyWhenWhollyBeyondAPlane)
   EXPECT_EQ(sphereVisibility(view, { 0, 0, 5 }, 6.0), Visibility::Inside); // eye inside
 }
 
+/// A model whose matrix stretches it is as large on screen as one that was stretched before: for
+/// small spheres, the farthest of their points from the middle show it.
+TEST(ScreenError, OfAStretchedModelIsThatOfItsStretchedPoints)
+{
+  const glm::dvec3 eye(30.0, -50.0, 40.0);
+  const glm::dmat4 camera = glm::lookAt(eye, glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+  const glm::dmat4 lens[] = { glm::perspective(0.5, 1.0, 0.5, 500.0),
+    glm::ortho(-20.0, 20.0, -20.0, 20.0, 1.0, 500.0) };
+  const glm::dmat4 turned = glm::rotate(glm::dmat4(1.0), 0.7, glm::dvec3(1, 2, 3));
+  for (const glm::dvec3& scale : { glm::dvec3(1, 1, 10), glm::dvec3(20, 1, 1),
+         glm::dvec3(1, 0.05, 1), glm::dvec3(3, 3, 3), glm::dvec3(-1, 1, 4) })
+  {
+    const glm::dmat4 model =
+      glm::scale(glm::translate(glm::dmat4(1.0), { 2, 3, 1 }), scale) * turned;
+    for (const glm::dmat4& projection : lens)
+    {
+      const glm::dmat4 toClip = projection * camera;
+      const View view = View::ofModel(model, toClip, 400, 400);
+      const glm::dvec3 centre(0.2, -0.3, 0.1);
+      constexpr double spacing = 1e-4;
+      const auto pixelOf = [&](const glm::dvec3& p)
+      {
+        const glm::dvec4 clip = toClip * model * glm::dvec4(p, 1.0);
+        return glm::dvec2(clip) / clip.w * 200.0;
+      };
+      double most = 0.0;
+      for (int i = 0; i < 20000; ++i)
+      {
+        const double z = 2.0 * (i + 0.5) / 20000 - 1.0;
+        const double angle = 2.399963 * i;
+        const double around = std::sqrt(1.0 - z * z);
+        const glm::dvec3 way(around * std::cos(angle), around * std::sin(angle), z);
+        most = std::max(most, glm::length(pixelOf(centre + spacing * way) - pixelOf(centre)));
+      }
+      // The place is off the middle of the picture, where a length shows larger by a few percent.
+      const double error = screenError(view, sphere(centre, 1e-6f, float(spacing)));
+      EXPECT_NEAR(error / most, 1.0, 0.03) << scale.x << " " << scale.y << " " << scale.z;
+    }
+  }
+}
+
+TEST(ScreenError, OfAStretchedSphereIsThatOfItsNearestPoint)
+{
+  const glm::dmat4 projection = glm::perspective(0.5, 1.0, 0.5, 500.0);
+  const glm::dmat4 camera =
+    glm::lookAt(glm::dvec3(100.0, 0, 0), glm::dvec3(0.0), glm::dvec3(0, 0, 1));
+  const glm::dmat4 model = glm::scale(glm::dmat4(1.0), glm::dvec3(5.0, 1.0, 2.0));
+  const View view = View::ofModel(model, projection * camera, 400, 400);
+  // Ten times five towards the eye, and twice as large across.
+  EXPECT_NEAR(distanceToNode(view, sphere({ 0, 0, 0 }, 10.0f, 1.0f)), 50.0 / 2.0, 1e-9);
+  EXPECT_EQ(distanceToNode(view, sphere({ 0, 0, 0 }, 20.0f, 1.0f)), 0.0);
+  EXPECT_FALSE(
+    View::ofModel(glm::scale(glm::dmat4(1.0), glm::dvec3(-2.0)), projection * camera, 9, 9)
+      .stretch);
+}
+
 } // namespace pointfront

@@ -43,6 +43,26 @@ TEST(DecimalStep, IsTheOneThatAllNumbersHaveInCommon)
   EXPECT_EQ(both.decimals(), 2);
 }
 
+/// A sum that comes near zero has the rounding of its offset.
+TEST(DecimalStep, IsTheOneOfSumsThatCrossZero)
+{
+  for (const double offset : { -3.3, -0.05, -1000.1, 0.7 })
+  {
+    DecimalStep step;
+    DecimalStep half;
+    for (int k = 0; k <= 20000; ++k)
+    {
+      (k % 2 == 0 ? step : half).add(0.001 * k + offset);
+    }
+    EXPECT_EQ(step.decimals(), 3) << offset;
+    step.add(half);
+    EXPECT_EQ(step.decimals(), 3) << offset;
+  }
+  // A small number that no rounding of the others explains.
+  EXPECT_NE(doubles({ 17.001, 1e-3 + 1e-12 }).decimals(), 3);
+  EXPECT_NE(doubles({ 1e-3 + 1e-12, 17.001 }).decimals(), 3);
+}
+
 TEST(DecimalStep, IsNoneForWhatOnlyLooksLikeOne)
 {
   EXPECT_FALSE(floats({ 1.0 / 3.0, 0.1 }).decimals()) << "thirds";

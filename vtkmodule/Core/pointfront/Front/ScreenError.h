@@ -32,10 +32,18 @@ inline Visibility sphereVisibility(const View& view, const glm::dvec3& centre, d
   return Visibility::Inside;
 }
 
+/// distanceToSphere() of a model whose matrix stretches it.
+double distanceToStretched(const View& view, const glm::dvec3& centre, double radius);
+
 /// Distance from the eye to a sphere, world units, 0 when the eye is inside. Parallel views have
-/// no eye: there it is the depth along the line of sight.
+/// no eye: there it is the depth along the line of sight. Where the view stretches lengths across
+/// the ray to the sphere, the distance is as many times shorter as they are longer.
 inline double distanceToSphere(const View& view, const glm::dvec3& centre, double radius)
 {
+  if (view.stretch)
+  {
+    return distanceToStretched(view, centre, radius);
+  }
   const glm::dvec3 fromEye = centre - view.position;
   const double distance = view.parallel ? glm::dot(fromEye, view.direction) : glm::length(fromEye);
   return distance > radius ? distance - radius : 0.0; // a NaN gives 0: first rather than lost

@@ -96,11 +96,56 @@ double pixelsAcross(
 
 } // namespace
 
+std::optional<ModelStretch> ModelStretch::of(const glm::dmat4& modelToWorld)
+{
+  constexpr double roundingOfAMatrix = 1e-9;
+  ModelStretch stretch;
+  stretch.toWorld = glm::dmat3(modelToWorld);
+  stretch.squares = stretch.toWorld * glm::transpose(stretch.toWorld);
+  const glm::dmat3& m = stretch.squares;
+  const double mean = (m[0][0] + m[1][1] + m[2][2]) / 3.0;
+  double farthest = 0.0;
+  for (int c = 0; c < 3; ++c)
+  {
+    for (int r = 0; r < 3; ++r)
+    {
+      farthest = std::max(farthest, std::abs(m[c][r] - (c == r ? mean : 0.0)));
+    }
+  }
+  if (!(farthest > roundingOfAMatrix * mean))
+  {
+    return std::nullopt;
+  }
+  // Columns of the adjugate of a symmetric matrix.
+  stretch.adjugate =
+    glm::dmat3(glm::cross(m[1], m[2]), glm::cross(m[2], m[0]), glm::cross(m[0], m[1]));
+  return stretch;
+}
+
+double ModelStretch::along(const glm::dvec3& ray) const
+{
+  return std::sqrt(std::max(0.0, glm::dot(ray, squares * ray)));
+}
+
+/// The larger singular value of `toWorld` without its part along the ray: the squares of both have
+/// this sum and this product.
+double ModelStretch::across(const glm::dvec3& ray) const
+{
+  const double sum = squares[0][0] + squares[1][1] + squares[2][2] - glm::dot(ray, squares * ray);
+  const double product = glm::dot(ray, adjugate * ray);
+  return std::sqrt(0.5 * (sum + std::sqrt(std::max(0.0, sum * sum - 4.0 * product))));
+}
+
+bool operator==(const ModelStretch& a, const ModelStretch& b)
+{
+  return a.toWorld == b.toWorld && a.direction == b.direction;
+}
+
 bool operator==(const View& a, const View& b)
 {
   return a.position == b.position && a.direction == b.direction && a.parallel == b.parallel &&
     a.pixelsPerUnit == b.pixelsPerUnit && a.nearDistance == b.nearDistance && a.width == b.width &&
-    a.height == b.height && a.planes == b.planes;
+    a.height == b.height && a.planes == b.planes && a.stretch == b.stretch;
 }
 
 View View::fromMatrix(const glm::dmat4& worldToClip, int width, int height)
@@ -143,6 +188,24 @@ View View::fromMatrix(const glm::dmat4& worldToClip, int width, int height)
   }
   view.pixelsPerUnit = pixelsAcross(rows, view.direction, view.width, view.height);
   view.planes = clipPlanes(rows, view.direction);
+  return view;
+}
+
+View View::ofModel(
+  const glm::dmat4& modelToWorld, const glm::dmat4& worldToClip, int width, int height)
+{
+  View view = fromMatrix(worldToClip * modelToWorld, width, height);
+  view.stretch = ModelStretch::of(modelToWorld);
+  if (view.stretch)
+  {
+    const View world = fromMatrix(worldToClip, width, height);
+    const glm::dmat3& squares = view.stretch->squares;
+    const double most = std::sqrt(squares[0][0] + squares[1][1] + squares[2][2]);
+    view.stretch->direction = world.direction;
+    view.pixelsPerUnit =
+      world.pixelsPerUnit * (world.parallel ? view.stretch->across(world.direction) : 1.0);
+    view.nearDistance = world.nearDistance / std::max(most, 1.0); // a distance may be as short
+  }
   return view;
 }
 

@@ -150,6 +150,29 @@ Result<std::vector<ProjectionPass::Known>> ProjectionPass::systemsOf(
   return systems;
 }
 
+Result<CoordinateSystem> ProjectionPass::utmZone(
+  const SourceDescription& source, const CoordinateSystem& system) const
+{
+  constexpr double halfTurn = 3.14159265358979;
+  const Bounds& where = source.declaredBounds;
+  if (where.empty())
+  {
+    return makeError(Error::Kind::BadArgument,
+      source.path +
+        ": does not say where it is before it is read, so no UTM zone can be chosen; "
+        "name the zone");
+  }
+  if (system.geographic && where.size().x * system.unitLength > halfTurn)
+  {
+    return makeError(Error::Kind::BadArgument,
+      source.path + ": its points have longitudes from " + std::to_string(where.low.x) + " to " +
+        std::to_string(where.high.x) +
+        ", so they surround the globe or lie on both sides of the antimeridian, and no UTM zone "
+        "can be chosen; name the zone");
+  }
+  return known_.utmZone(system, where.centre());
+}
+
 Result<std::optional<CoordinateSystem>> ProjectionPass::chooseTarget(
   const PointSources& sources, const std::vector<Known>& systems) const
 {
@@ -178,15 +201,7 @@ Result<std::optional<CoordinateSystem>> ProjectionPass::chooseTarget(
     {
       return defined(options_.target);
     }
-    const Bounds& where = sources[first]->description().declaredBounds;
-    if (where.empty())
-    {
-      return makeError(Error::Kind::BadArgument,
-        sources[first]->description().path +
-          ": does not say where it is before it is read, so no UTM zone can be chosen; "
-          "name the zone");
-    }
-    return known_.utmZone(*systems[first], where.centre());
+    return utmZone(sources[first]->description(), *systems[first]);
   }();
   if (!target)
   {

@@ -61,6 +61,8 @@ private:
   Result<CoordinateSystem> defined(const std::string& definition) const;
   Result<std::vector<Known>> systemsOf(const PointSources& sources) const;
   Known systemOf(const SourceDescription& source) const;
+  Result<CoordinateSystem> utmZone(
+    const SourceDescription& source, const CoordinateSystem& system) const;
   Result<std::optional<CoordinateSystem>> chooseTarget(
     const PointSources& sources, const std::vector<Known>& systems) const;
   Result<Way> wayFrom(const std::string& path, const CoordinateSystem& from,

@@ -263,3 +263,15 @@ TEST(ProjectionPass, RealGeoKeysBecomeWkt)
     own.all().find("prec3.las: its coordinate reference system is not known"), std::string::npos)
     << own.all();
 }
+
+TEST(ProjectionPass, NoUtmZoneIsGuessedAcrossTheAntimeridian)
+{
+  ProjectionOptions options;
+  options.target = "utm";
+  auto fiji = std::make_unique<CloudInMemory>("fiji",
+    std::vector<glm::dvec3>{ { 179.95, -17.0, 5.0 }, { -179.96, -17.01, 5.0 } }, wkt("EPSG:4326"));
+  const Outcome outcome = passed(listOf(std::move(fiji)), options);
+  EXPECT_NE(outcome.error.find("fiji: "), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("antimeridian"), std::string::npos) << outcome.error;
+  EXPECT_NE(outcome.error.find("name the zone"), std::string::npos) << outcome.error;
+}

@@ -169,6 +169,25 @@ Result<void> checkPixelsAreThere(TIFF* tiff, const std::string& path)
   }
   return {};
 }
+
+/// As OpenImageIO reduces them to 8 bits.
+std::vector<std::array<std::uint8_t, 3>> coloursOf(TIFF* tiff)
+{
+  std::uint16_t bits = 1;
+  const std::uint16_t* channels[3] = {};
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_BITSPERSAMPLE, &bits);
+  std::vector<std::array<std::uint8_t, 3>> colours;
+  if (TIFFGetField(tiff, TIFFTAG_COLORMAP, &channels[0], &channels[1], &channels[2]) == 0)
+  {
+    return colours;
+  }
+  for (std::size_t i = 0; i < (std::size_t(1) << bits); ++i)
+  {
+    const auto byte = [&](int c) { return static_cast<std::uint8_t>(channels[c][i] / 257); };
+    colours.push_back({ byte(0), byte(1), byte(2) });
+  }
+  return colours;
+}
 } // namespace
 
 bool GeoTiffTags::isTiff(const std::string& path)
@@ -205,9 +224,14 @@ Result<GeoTiffTags> GeoTiffTags::read(const std::string& path)
   }
   tags.transform = *transform;
   tags.noData = number(text(tiff.get(), NoData));
-  std::uint16_t photometric = 0;
+  std::uint16_t photometric = PHOTOMETRIC_MINISBLACK;
   TIFFGetField(tiff.get(), TIFFTAG_PHOTOMETRIC, &photometric);
   tags.palette = photometric == PHOTOMETRIC_PALETTE;
+  tags.whiteIsZero = photometric == PHOTOMETRIC_MINISWHITE;
+  if (tags.palette)
+  {
+    tags.colours = coloursOf(tiff.get());
+  }
   return tags;
 }
 

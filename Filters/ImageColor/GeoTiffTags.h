@@ -5,8 +5,11 @@
 #include "pointfront/Base/Result.h"
 #include "pointfront/Reference/GeoKeys.h"
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -19,6 +22,9 @@ struct GeoTiffTags
   GeoKeys keys;
   std::optional<double> noData;
   bool palette = false; ///< pixels are indices into a table of colours
+  /// That table: red, green and blue of each index. Empty where there is none.
+  std::vector<std::array<std::uint8_t, 3>> colours;
+  bool whiteIsZero = false; ///< grey whose 0 is white
 
   /// True if the file begins as a TIFF or BigTIFF does.
   static bool isTiff(const std::string& path);

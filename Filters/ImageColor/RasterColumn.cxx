@@ -76,6 +76,21 @@ bool withoutData(const RasterFile& file, const std::byte* pixel)
   return true;
 }
 
+/// Red, green or blue of a pixel, 8 or 16 bits.
+unsigned colourOf(const RasterFile& file, const std::byte* pixel, std::size_t which)
+{
+  const bool wide = file.type == ScalarType::UInt16;
+  if (!file.colours.empty())
+  {
+    const std::size_t index = wide ? load<std::uint16_t>(pixel) : std::to_integer<unsigned>(*pixel);
+    return index < file.colours.size() ? file.colours[index][which] : 0;
+  }
+  const std::size_t channel = file.dataChannels() < 3 ? 0 : which;
+  const unsigned value =
+    wide ? load<std::uint16_t>(pixel + 2 * channel) : std::to_integer<unsigned>(pixel[channel]);
+  return !file.whiteIsZero ? value : (wide ? 65535 : 255) - value;
+}
+
 /// Types that programs expect under well-known names (AttributeSchema).
 ScalarType typeOfNew(const std::string& name, ScalarType ofImages)
 {
@@ -124,8 +139,8 @@ Result<RasterColumn> RasterColumn::make(
   wanted.name = name;
   if (column.colour_)
   {
-    const bool wide = std::any_of(files.begin(), files.end(),
-      [](const RasterFile& file) { return file.type == ScalarType::UInt16; });
+    const bool wide = std::any_of(
+      files.begin(), files.end(), [](const RasterFile& file) { return file.hasWideColours(); });
     wanted.type = wide ? ScalarType::UInt16 : ScalarType::UInt8;
     wanted.components = 3;
   }
@@ -176,13 +191,10 @@ RasterColumn::Outcome RasterColumn::store(
 RasterColumn::Outcome RasterColumn::storeColour(
   const RasterFile& file, const std::byte* pixel, std::byte* to) const
 {
-  const bool grey = file.dataChannels() < 3;
+  const bool wide = file.hasWideColours();
   for (std::size_t c = 0; c < 3; ++c)
   {
-    const std::size_t channel = grey ? 0 : c;
-    const bool wide = file.type == ScalarType::UInt16;
-    const unsigned value =
-      wide ? load<std::uint16_t>(pixel + 2 * channel) : std::to_integer<unsigned>(pixel[channel]);
+    const unsigned value = colourOf(file, pixel, c);
     if (attribute_.type == ScalarType::UInt8)
     {
       to[c] = static_cast<std::byte>(wide ? (value + 128) / 257 : value);

@@ -69,7 +69,11 @@ Result<void> readPixelLayout(RasterFile& file)
         "double are");
   }
   file.type = *type;
-  if (file.use == RasterUse::Values && file.palette)
+  // OpenImageIO spreads fewer bits over 8, and inverts them.
+  const int ofType = 8 * static_cast<int>(sizeOf(file.type));
+  file.whiteIsZero =
+    file.whiteIsZero && spec.get_int_attribute("oiio:BitsPerSample", ofType) == ofType;
+  if (file.palette && (file.use == RasterUse::Values || !file.colours.empty()))
   {
     file.channels = 1;
     file.alphaChannel = -1;
@@ -79,7 +83,9 @@ Result<void> readPixelLayout(RasterFile& file)
     {
       return makeError(Error::Kind::Unsupported,
         file.path + ": palettes with " + std::to_string(bits) +
-          " bits a pixel are not read; 8 and 16 are");
+          " bits a pixel are not read as indices, nor as colours if one index stands for no data; "
+          "8 "
+          "and 16 are");
     }
   }
   const bool colour = file.type == ScalarType::UInt8 || file.type == ScalarType::UInt16;
@@ -195,7 +201,12 @@ Result<RasterFile> RasterFile::open(
     return whole.error();
   }
   file.palette = tags.palette;
+  file.whiteIsZero = tags.whiteIsZero;
   file.noData = tags.noData;
+  if (use == RasterUse::Colour && file.noData)
+  {
+    file.colours = std::move(tags.colours);
+  }
   if (Result<void> done = readPixelLayout(file); !done)
   {
     return done.error();

@@ -7,8 +7,11 @@
 #include "pointfront/Points/ScalarType.h"
 #include "pointfront/Reference/CoordinateSystems.h"
 
+#include <array>
+#include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -35,12 +38,17 @@ struct RasterFile
   ScalarType type = ScalarType::UInt8; ///< type of one channel
   bool tiff = false;
   bool palette = false; ///< a TIFF with a table of colours
+  bool whiteIsZero = false; ///< grey as it stands in the file, to be inverted for colours
+  /// Pixels are indices into this table, so that the one without data can be told from others of
+  /// its colour. Empty: they are not.
+  std::vector<std::array<std::uint8_t, 3>> colours;
   GeoTransform transform;
   std::optional<CoordinateSystem> system;
   std::string systemDoubt; ///< why `system` is not known, or what is odd about it; "" if neither
   std::optional<double> noData;
 
   int dataChannels() const { return channels - (alphaChannel >= 0 ? 1 : 0); }
+  bool hasWideColours() const { return type == ScalarType::UInt16 && colours.empty(); }
   std::size_t pixelBytes() const { return sizeOf(type) * static_cast<std::size_t>(channels); }
   Bounds ground() const; ///< the box of all pixels; z is 0
 

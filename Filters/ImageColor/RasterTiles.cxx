@@ -91,8 +91,8 @@ int dropWarning(TIFF*, void*, const char*, const char*, va_list)
 }
 
 /// The elements of a TIFF as they stand in the file, as so many channels of bytes. For what
-/// OpenImageIO does not give: the indices of a palette, and doubles, of which it loses single
-/// rows (2.4).
+/// OpenImageIO does not give: the indices of a palette, grey whose 0 is white, which it inverts if
+/// it has 8 bits, and doubles, of which it loses single rows (2.4).
 class ElementInput final : public ImageInput
 {
 public:
@@ -206,8 +206,9 @@ Result<std::uint32_t> RasterTiles::add(const RasterFile& file)
   OIIO::ImageCache& images = *cache_->images;
   Registered entry;
   entry.path = file.path;
-  const bool elements = file.use == RasterUse::Values &&
+  const bool asStored = file.use == RasterUse::Values &&
     (file.palette || (file.tiff && file.type == ScalarType::Float64));
+  const bool elements = asStored || file.whiteIsZero || !file.colours.empty();
   const bool bytes = !elements && !keptByCache(file.type);
   entry.name = (elements ? elementsPrefix : bytes ? bytesPrefix : std::string()) + file.path;
   if ((elements || bytes) &&

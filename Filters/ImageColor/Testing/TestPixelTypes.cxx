@@ -99,3 +99,56 @@ TEST(ImageValuesPass, GreyAndSixteenBitsBecomeColours)
     { { "rgb", { grey.write("grey.tif"), deep.write("deep.tif") } } });
   EXPECT_EQ(both.values("rgb"), (std::vector<double>{ 23130, 23130, 23130, 65535, 514, 0 }));
 }
+
+TEST(ImageValuesPass, WhereWhiteIsZeroColoursAreInvertedAndValuesAreNot)
+{
+  struct Case
+  {
+    int bits;
+    double stored;
+    double shown;
+  };
+  for (const Case& c : { Case{ 8, 200, 55 }, Case{ 16, 65000, 535 } })
+  {
+    for (const int tile : { 0, 16 })
+    {
+      WrittenTiff image;
+      image.width = 2;
+      image.height = 1;
+      image.bits = c.bits;
+      image.values = { c.stored, 9 };
+      image.noData = "9";
+      image.whiteIsZero = true;
+      image.tile = tile;
+      image.at(0, 1);
+      const std::string path = image.write("white" + std::to_string(c.bits + tile) + ".tif");
+      const ColouredCloud outcome = coloured(
+        cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }), { { "v", { path } }, { "rgb", { path } } });
+      ASSERT_EQ(outcome.error, "");
+      EXPECT_EQ(outcome.values("v"), (std::vector<double>{ c.stored, 0 })) << c.bits;
+      EXPECT_EQ(outcome.values("rgb"), (std::vector<double>{ c.shown, c.shown, c.shown, 0, 0, 0 }))
+        << c.bits;
+    }
+  }
+}
+
+TEST(ImageValuesPass, AnIndexWithoutDataIsNoColour)
+{
+  for (const int tile : { 0, 16 })
+  {
+    WrittenTiff image;
+    image.width = 3;
+    image.height = 1;
+    image.values = { 3, 7, 200 };
+    image.palette = true;
+    image.noData = "7";
+    image.tile = tile;
+    image.at(0, 1);
+    const std::string path = image.write("holes" + std::to_string(tile) + ".tif");
+    const ColouredCloud outcome = coloured(
+      cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 }, { 2.5, 0.5, 0 } }), { { "rgb", { path } } });
+    ASSERT_EQ(outcome.error, "");
+    EXPECT_EQ(outcome.schema[0].type, ScalarType::UInt8);
+    EXPECT_EQ(outcome.values("rgb"), (std::vector<double>{ 252, 3, 7, 0, 0, 0, 55, 200, 7 }));
+  }
+}

@@ -81,6 +81,7 @@ void setLayout(TIFF* tiff, const WrittenTiff& image)
   TIFFSetField(tiff, TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   TIFFSetField(tiff, TIFFTAG_PHOTOMETRIC,
     image.palette           ? PHOTOMETRIC_PALETTE
+      : image.whiteIsZero   ? PHOTOMETRIC_MINISWHITE
       : image.channels >= 3 ? PHOTOMETRIC_RGB
                             : PHOTOMETRIC_MINISBLACK);
   if (image.alpha)

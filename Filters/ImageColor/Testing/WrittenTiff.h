@@ -23,6 +23,7 @@ struct WrittenTiff
   std::string noData;
   bool alpha = false; ///< the last channel
   bool palette = false; ///< colour i is (255 - i, i, 7)
+  bool whiteIsZero = false;
   int tile = 0; ///< side of a tile, 0: strips of one row; a multiple of 16
 
   /// North-up pixels of `size`, the corner at (x, y).

@@ -73,6 +73,14 @@ Result<void> PCDTextTable::index(const SurveyOptions& survey)
     return opened;
   }
   complain(file_.warnings);
+  std::vector<FieldStatistics> values = statistics();
+  for (std::size_t f = 0; f < values.size(); ++f)
+  {
+    // Red, green and blue are bytes of the number that stands there.
+    const bool packed = std::count(columns_.begin(), columns_.end(), columns_[f]) > 1;
+    values[f] = packed ? FieldStatistics() : values[f];
+  }
+  widenTypes(values, file_.fields, file_.warnings);
   return {};
 }
 

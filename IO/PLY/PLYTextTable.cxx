@@ -49,6 +49,7 @@ Result<void> PLYTextTable::index(const SurveyOptions& survey)
     return opened;
   }
   complain(file_.warnings);
+  widenTypes(statistics(), fields_, file_.warnings);
   return {};
 }
 

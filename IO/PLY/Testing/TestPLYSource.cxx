@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstring>
 
 namespace pointfront::test
 {
@@ -283,6 +284,29 @@ TEST(PLYHeaders, ThatLieOrAreNoneAreRefused)
     EXPECT_NE(source.error().what.find(reason), std::string::npos) << source.error().what;
     EXPECT_NE(source.error().what.find("broken.ply"), std::string::npos) << source.error().what;
   }
+}
+
+TEST(PLYText, KeepsValuesThatTheTypeOfItsHeaderDoesNotHold)
+{
+  const auto points = openPoints(PLYFormat(),
+    writeFile("wide.ply",
+      header("ascii",
+        "element vertex 2\nproperty float x\nproperty float y\nproperty float z\n"
+        "property uchar a\nproperty short b\nproperty int c\nproperty int d\nproperty char e\n") +
+        "0 0 0 300 -40000 99999999999 1.5 -128\n1 1 1 7 7 7 7 127\n"));
+  ASSERT_TRUE(points);
+  const AttributeSchema& schema = points->description().schema;
+  const std::array<ScalarType, 5> types = { ScalarType::UInt16, ScalarType::Int32,
+    ScalarType::Int64, ScalarType::Float32, ScalarType::Int8 };
+  for (std::size_t c = 0; c < types.size(); ++c)
+  {
+    EXPECT_EQ(schema[*schema.find(std::string(1, static_cast<char>('a' + c)))].type, types[c]);
+  }
+  const PointBatch batch = readPoints(*points);
+  std::int64_t wide = 0;
+  std::memcpy(&wide, batch.columns[*schema.find("c")].data(), sizeof wide);
+  EXPECT_EQ(wide, 99999999999);
+  EXPECT_EQ(points->description().warnings.size(), 4u);
 }
 
 TEST(PLYHeaders, WithCountsBeyondAllBytesEndAtOnce)

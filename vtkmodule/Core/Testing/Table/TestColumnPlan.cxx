@@ -72,6 +72,9 @@ TEST(ColumnPlan, GivesTextTheSmallestTypes)
   EXPECT_EQ(text(range(-5e9, 0), 10), "q int64");
   EXPECT_EQ(text(range(0, 0.5), 6), "q float32");
   EXPECT_EQ(text(range(0, 0.5), 7), "q float64");
+  FieldStatistics tiny = range(0, 0.5);
+  tiny.decimals = 40; // 1e-40 is 9.99995e-41 as float32
+  EXPECT_EQ(text(tiny, 1), "q float64");
 }
 
 TEST(ColumnPlan, NeedsAllThreeForAVector)

@@ -47,6 +47,12 @@ ScalarType smallestInteger(double low, double high)
                             : ScalarType::Int64;
 }
 
+/// Text of few digits, none of which float32 loses: its smallest number with all of them is 1e-38.
+bool shortText(const FieldStatistics& values)
+{
+  return values.digits <= 6 && values.decimals <= 37;
+}
+
 /// The type that text of those values is stored with.
 ScalarType textType(const FieldStatistics& values)
 {
@@ -55,7 +61,7 @@ ScalarType textType(const FieldStatistics& values)
   {
     return smallestInteger(values.low, values.high);
   }
-  const bool short32 = values.digits <= 6 && reach < 1e37;
+  const bool short32 = shortText(values) && reach < 1e37;
   return short32 ? ScalarType::Float32 : ScalarType::Float64;
 }
 
@@ -73,8 +79,8 @@ ScalarType knownType(const TableField& field, const FieldStatistics& values, Sca
   if (isFloat(wished))
   {
     const bool text = !field.type;
-    return text && (wished == ScalarType::Float64 || values.digits <= 6) ? wished
-                                                                         : ownType(field, values);
+    return text && (wished == ScalarType::Float64 || shortText(values)) ? wished
+                                                                        : ownType(field, values);
   }
   const bool fits = values.whole && values.finite &&
     (values.empty() || (values.low >= 0.0 && values.high <= largestOf(wished)));

@@ -3,8 +3,10 @@
 #include "pointfront/Table/TextRows.h"
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -53,7 +55,35 @@ protected:
     }
   }
 
+  /// Lets the values decide where a field's own type cannot hold them all, and says so. No values:
+  /// the type stays.
+  static void widenTypes(const std::vector<FieldStatistics>& values,
+    std::vector<TableField>& fields, std::vector<std::string>& warnings)
+  {
+    for (std::size_t f = 0; f < fields.size(); ++f)
+    {
+      if (fields[f].type && !values[f].empty() && !holds(*fields[f].type, values[f]))
+      {
+        warnings.push_back("'" + fields[f].name + "' has values that its type, " +
+          std::string(nameOf(*fields[f].type)) + ", does not hold; they are kept as they are.");
+        fields[f].type.reset();
+      }
+    }
+  }
+
 private:
+  static bool holds(ScalarType type, const FieldStatistics& values)
+  {
+    return visitScalar(type,
+      [&](auto zero)
+      {
+        using T = decltype(zero);
+        const bool inside = values.low >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
+          values.high <= static_cast<double>(std::numeric_limits<T>::max());
+        return inside && (std::is_floating_point_v<T> || (values.whole && values.finite));
+      });
+  }
+
   std::optional<TextRows> rows_;
 };
 

@@ -36,14 +36,18 @@ Result<OpenedInputs> opened(const BuildOrder& order, std::vector<std::string>& f
   return openInputs(files->paths, formats, order.options.onFault, {}, absent);
 }
 
-PointSources made(const BuildOrder& order)
+Result<OpenedInputs> made(const BuildOrder& order)
 {
-  PointSources sources = order.made();
-  for (std::unique_ptr<PointSource>& source : sources)
+  Result<PointSources> sources = order.made();
+  if (!sources)
+  {
+    return sources.error();
+  }
+  for (std::unique_ptr<PointSource>& source : *sources)
   {
     source = order.options.box ? order.options.box->cut(std::move(source)) : std::move(source);
   }
-  return sources;
+  return OpenedInputs{ std::move(*sources), {} };
 }
 
 } // namespace
@@ -66,8 +70,7 @@ Result<BuildReport> carryOut(const BuildOrder& request, const ProgressFunction& 
     return passes.error();
   }
   std::vector<std::string> findings;
-  Result<OpenedInputs> inputs =
-    order.made ? OpenedInputs{ made(order), {} } : opened(order, findings);
+  Result<OpenedInputs> inputs = order.made ? made(order) : opened(order, findings);
   if (!inputs)
   {
     return inputs.error();

@@ -18,7 +18,7 @@ namespace pointfront
 struct BuildOrder
 {
   std::vector<std::string> files; ///< and patterns and folders, as the tool takes them
-  std::function<PointSources()> made; ///< instead of files; called once
+  std::function<Result<PointSources>()> made; ///< instead of files; called once
   BuildOptions options; ///< but for its box, which is made of the following one
   std::optional<Bounds> box; ///< only points inside or on it, in the inputs' coordinates
   PassChoice passes;

@@ -63,7 +63,12 @@ bool isColour(vtkDataArray* array, const std::string& name)
 bool isHeight(vtkDataArray* array, vtkPoints* points)
 {
   double place[3];
-  for (vtkIdType i = 0; i < array->GetNumberOfTuples(); ++i)
+  const vtkIdType count = points->GetNumberOfPoints();
+  if (array->GetNumberOfTuples() != count)
+  {
+    return false;
+  }
+  for (vtkIdType i = 0; i < count; ++i)
   {
     points->GetPoint(i, place);
     if (array->GetComponent(i, 0) != place[2])
@@ -134,8 +139,21 @@ PointSetSource::PointSetSource(vtkPointSet* points)
   }
   description_.pointCount = static_cast<std::uint64_t>(points_->GetNumberOfPoints());
   description_.grid = gridOf(points);
-  vtkPointData* attributes = points->GetPointData();
-  for (int i = 0; i < attributes->GetNumberOfArrays(); ++i)
+}
+
+Result<std::unique_ptr<PointSetSource>> PointSetSource::make(vtkPointSet* points)
+{
+  std::unique_ptr<PointSetSource> source(new PointSetSource(points));
+  if (Result<void> added = source->addArrays(points->GetPointData()); !added)
+  {
+    return added.error();
+  }
+  return source;
+}
+
+Result<void> PointSetSource::addArrays(vtkPointData* attributes)
+{
+  for (int i = 0; points_ && i < attributes->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = attributes->GetAbstractArray(i);
     const std::string name = array->GetName() ? array->GetName() : "";
@@ -153,8 +171,21 @@ PointSetSource::PointSetSource(vtkPointSet* points)
         "\" are left out: a store holds named numbers of 1 to 16 components.");
       continue;
     }
+    const auto tuples = static_cast<std::uint64_t>(numbers->GetNumberOfTuples());
+    if (const std::uint64_t count = description_.pointCount; tuples != count)
+    {
+      const std::string found = "\"" + name + "\" has " + std::to_string(tuples) +
+        " tuples, and there are " + std::to_string(count) + " points";
+      if (tuples < count)
+      {
+        return makeError(
+          Error::Kind::BadArgument, "the point data " + found + ": give each point a tuple");
+      }
+      description_.warnings.push_back("The point data " + found + ": the first are stored.");
+    }
     this->add(numbers);
   }
+  return {};
 }
 
 PointSetSource::~PointSetSource() = default;

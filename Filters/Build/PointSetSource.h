@@ -1,12 +1,15 @@
 #pragma once
 
+#include "pointfront/Base/Result.h"
 #include "pointfront/Points/ColumnSource.h"
 
 #include <vtkSmartPointer.h>
 
+#include <memory>
 #include <vector>
 
 class vtkDataArray;
+class vtkPointData;
 class vtkPoints;
 class vtkPointSet;
 
@@ -19,14 +22,18 @@ namespace pointfront
 /// Grid      the one of the field data "store_grid" (scales, offsets), if all points lie on it.
 /// Left out  ghost marks, "point_id" (a number in another store) and "elevation" where it is z,
 ///           without a word; arrays that hold no numbers, or more than 16 components, with a
-///           warning.
+///           warning; tuples of an array beyond the points', with a warning.
 class PointSetSource final : public ColumnSource
 {
 public:
-  explicit PointSetSource(vtkPointSet* points);
+  /// Errors  BadArgument: an array has fewer tuples than there are points. VTK lets one be set, and
+  ///         what lies behind its end is not the caller's.
+  static Result<std::unique_ptr<PointSetSource>> make(vtkPointSet* points);
   ~PointSetSource() override;
 
 private:
+  explicit PointSetSource(vtkPointSet* points);
+  Result<void> addArrays(vtkPointData* attributes);
   void add(vtkDataArray* array);
   glm::dvec3 position(std::uint64_t point) const override;
 

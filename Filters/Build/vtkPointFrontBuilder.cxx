@@ -77,10 +77,15 @@ pointfront::BuildOrder vtkPointFrontBuilder::Content::Order(
   std::sort(order.files.begin(), order.files.end());
   if (this->Points)
   {
-    order.made = [this]
+    order.made = [this]() -> pointfront::Result<pointfront::PointSources>
     {
+      auto source = pointfront::PointSetSource::make(this->Points);
+      if (!source)
+      {
+        return source.error();
+      }
       pointfront::PointSources sources;
-      sources.push_back(std::make_unique<pointfront::PointSetSource>(this->Points));
+      sources.push_back(std::move(*source));
       return sources;
     };
   }

@@ -66,8 +66,13 @@ void vtkPVPointFileWriter::WriteData()
     this->Fail(free.error().what);
     return;
   }
-  const auto points =
-    std::make_shared<const pointfront::PointSetSource>(vtkPointSet::SafeDownCast(this->GetInput()));
+  auto source = pointfront::PointSetSource::make(vtkPointSet::SafeDownCast(this->GetInput()));
+  if (!source)
+  {
+    this->Fail(source.error().what);
+    return;
+  }
+  const std::shared_ptr<const pointfront::PointSetSource> points = std::move(*source);
   for (const std::string& warning : points->description().warnings)
   {
     vtkWarningMacro(<< warning);

@@ -385,7 +385,7 @@ char* pointfrontBuild(const char* request, const PointFrontArray* arrays, std::s
           return made.error();
         }
         source = std::move(*made);
-        order.made = [&source]
+        order.made = [&source]() -> Result<pointfront::PointSources>
         {
           pointfront::PointSources sources;
           sources.push_back(std::move(source));

@@ -34,11 +34,11 @@ std::vector<Rgba8> coloursOf(vtkScalarsToColors& table, const std::vector<double
   array->SetNumberOfValues(static_cast<vtkIdType>(values.size()));
   std::copy(values.begin(), values.end(), array->GetPointer(0));
   // As vtkMapper: the property's opacity counts, not the table's.
-  const double alpha = table.GetAlpha();
+  const double alphaOfTable = table.GetAlpha();
   table.SetAlpha(1.0);
   const auto mapped = vtkSmartPointer<vtkUnsignedCharArray>::Take(
     table.MapScalars(array, VTK_COLOR_MODE_MAP_SCALARS, 0));
-  table.SetAlpha(alpha);
+  table.SetAlpha(alphaOfTable);
   const unsigned char* colour = mapped->GetPointer(0);
   const int components = mapped->GetNumberOfComponents();
   const bool grey = components < 3;

@@ -2,6 +2,7 @@
 
 #include "pointfront/Points/PointSource.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>

@@ -130,7 +130,6 @@ TEST_F(Writer, SaysWhatItCannotWrite)
 
 TEST_F(Writer, TellsThoseWhoObserveIt)
 {
-  vtkNew<vtkPointFrontWriter> writer;
   writer->SetInputData(data);
   vtkNew<ErrorObserver> errors;
   writer->AddObserver(vtkCommand::ErrorEvent, errors);

@@ -32,8 +32,8 @@ protected:
 
 INSTANTIATE_TEST_SUITE_P(Structures, ReplaceBuild,
   testing::Values(Structure::Octree, Structure::KdTree),
-  [](const auto& info)
-  { return std::string(info.param == Structure::KdTree ? "KdTree" : "Octree"); });
+  [](const auto& instance)
+  { return std::string(instance.param == Structure::KdTree ? "KdTree" : "Octree"); });
 
 template <typename T>
 T valueOf(const NodeColumns& node, std::size_t column, std::size_t point)

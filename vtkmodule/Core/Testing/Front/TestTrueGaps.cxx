@@ -247,7 +247,7 @@ INSTANTIATE_TEST_SUITE_P(Ways, TrueGaps,
     StoredForm{ Structure::KdTree, Refinement::Add, "KdTreeOfPoints" },
     StoredForm{ Structure::Octree, Refinement::Replace, "OctreeOfMeans" },
     StoredForm{ Structure::KdTree, Refinement::Replace, "KdTreeOfMeans" }),
-  [](const auto& info) { return info.param.name; });
+  [](const auto& instance) { return instance.param.name; });
 
 } // namespace
 

@@ -16,6 +16,7 @@
 #include <vtkCommand.h>
 #include <vtkDataArraySelection.h>
 #include <vtkErrorCode.h>
+#include <vtkFieldData.h>
 #include <vtkIdTypeArray.h>
 #include <vtkIndent.h>
 #include <vtkInformation.h>
@@ -383,6 +384,8 @@ int vtkPointFrontExtract::RequestData(
   this->NumberOfPointsChosen = 0;
   vtkInformation* const info = outputs->GetInformationObject(0);
   vtkPolyData* const output = vtkPolyData::GetData(info);
+  // VTK has passed the input's field data on; a mapper would draw the whole store.
+  output->GetFieldData()->RemoveArray(vtkPointFrontStore::FieldName());
   const int piece = info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_PIECE_NUMBER());
   const int pieces =
     std::max(1, info->Get(vtkStreamingDemandDrivenPipeline::UPDATE_NUMBER_OF_PIECES()));

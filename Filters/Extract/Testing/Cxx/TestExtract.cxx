@@ -245,6 +245,18 @@ TEST_F(Extract, FindsTheStoreByTheReadersOutput)
   EXPECT_EQ(updated()->GetNumberOfPoints(), whole()->GetNumberOfPoints());
 }
 
+/// VTK passes field data on, but what is extracted is not the store: a mapper would draw all of it.
+TEST_F(Extract, DoesNotPassTheStoresNameOn)
+{
+  vtkNew<vtkPointFrontReader> reader;
+  reader->SetFileName(store.c_str());
+  reader->SetOverviewPoints(100);
+  filter->SetFileName(nullptr);
+  filter->SetInputConnection(reader->GetOutputPort());
+  EXPECT_EQ(vtkPointFrontStore::GetStoreName(updated()), std::string());
+  EXPECT_EQ(vtkPointFrontStore::GetStoreName(reader->GetOutput()), store);
+}
+
 TEST_F(Extract, OnlyWhatChangesRunsAgain)
 {
   filter->SetSpacing(20.0);

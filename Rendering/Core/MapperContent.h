@@ -26,6 +26,7 @@ struct vtkPointFrontMapper::Content
   std::string StoreName;
   vtkMTimeType InputTime = 0;
   bool MissingTold = false; ///< that this input names no store
+  bool OtherPointsTold = false; ///< that this input's points are not the store's
   pointfront::MapperFronts Views;
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;

@@ -227,7 +227,36 @@ PointColouring MapperStyle::colouringOf(
       "\"; its points are drawn in the property's colour" +
       meantAttribute(description.schema, request.name);
   }
+  if (colouring && colouring->usesTable())
+  {
+    tellOfTable(mapper, request.name,
+      colouring->usesColumn() ? &description.schema[colouring->column] : nullptr,
+      colouring->component);
+  }
   return colouring.value_or(PointColouring{});
+}
+
+/// Warns where VTK's mappers would not use the table, or would use it in another way.
+void MapperStyle::tellOfTable(
+  vtkPolyDataMapper& mapper, const std::string& name, const Attribute* attribute, int component)
+{
+  if (mapper.GetColorMode() == VTK_COLOR_MODE_DIRECT_SCALARS && !directWarned_)
+  {
+    directWarned_ = true;
+    warning_ = "the values of \"" + name +
+      "\" are no colours (three or four components are); they are drawn by the lookup table, not "
+      "as direct scalars";
+  }
+  vtkScalarsToColors* const table = mapper.GetLookupTable();
+  const int components = attribute ? attribute->components : 1;
+  if (component < 0 && table->GetVectorMode() == vtkScalarsToColors::MAGNITUDE &&
+    table->GetVectorSize() > 0 && table->GetVectorSize() < components && !vectorsWarned_)
+  {
+    vectorsWarned_ = true;
+    warning_ = "the magnitude of \"" + name +
+      "\" is that of all its components: the table's VectorSize and VectorComponent do not choose "
+      "among them";
+  }
 }
 
 std::shared_ptr<const ColourMap> MapperStyle::mapOf(

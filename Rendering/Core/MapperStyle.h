@@ -66,6 +66,8 @@ private:
     vtkPolyDataMapper& mapper, const PointColouring& colouring);
 
   void wantHeights(const std::shared_ptr<const StoredCloud>& store);
+  void tellOfTable(
+    vtkPolyDataMapper& mapper, const std::string& name, const Attribute* attribute, int component);
 
   std::shared_ptr<const ResolvedStyle> style_;
   std::optional<StyleSheet> sheet_; ///< that layers_ are of
@@ -81,6 +83,8 @@ private:
   std::shared_ptr<const ClassHeights> heights_; ///< once they were asked for
   std::string unknownArray_; ///< that has been warned of
   bool indexedWarned_ = false;
+  bool directWarned_ = false;
+  bool vectorsWarned_ = false;
   std::string warning_;
 };
 

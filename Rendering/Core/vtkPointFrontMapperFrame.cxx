@@ -1,5 +1,6 @@
 // A mapper's work in a frame: it asks the front for points, and makes the plan for the back end.
 #include "CloudLook.h"
+#include "InputPoints.h"
 #include "MapperContent.h"
 #include "MapperProperties.h"
 #include "PosterTile.h"
@@ -227,10 +228,19 @@ std::optional<pointfront::CloudLook> vtkPointFrontMapper::BeginFrame(
     if (content.StoreName.empty() && !std::exchange(content.MissingTold, true))
     {
       vtkErrorMacro("the input names no store (field data \""
-        << vtkPointFrontStore::FieldName() << "\"); connect a vtkPointFrontReader");
+        << vtkPointFrontStore::FieldName()
+        << "\"); connect a vtkPointFrontReader. vtkPolyDataMapper draws points in memory");
     }
     return std::nullopt;
   }
+  const bool others = pointfront::hasOtherPoints(*this, *this->GetStore());
+  if (others && !content.OtherPointsTold)
+  {
+    vtkWarningMacro("a filter has changed the points of the input, and the whole store is drawn as "
+                    "it is: an actor's position, orientation and scale move it, a style's filters "
+                    "and classes choose points. vtkPolyDataMapper draws points in memory");
+  }
+  content.OtherPointsTold = others;
   pointfront::CloudLook look = this->GetLook(renderer, actor);
   // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
   if (!renderer->GetSelector() && !IsInteracting(renderer) &&

@@ -205,7 +205,8 @@ bool vtkPointFrontMapper::HasTranslucentPolygonalGeometry()
 {
   vtkPointFrontStore* store = this->GetStore();
   vtkScalarsToColors* table = this->GetLookupTable();
-  if (!store || !table || !this->Internals->Style.colouringOf(*this, store->GetStore()).usesTable())
+  if (!store || !table || this->GetStyleSheet() || // a style has the say, whatever the table is
+    !this->Internals->Style.colouringOf(*this, store->GetStore()).usesTable())
   {
     return false;
   }

@@ -94,7 +94,7 @@ void SoftwarePicture::numberPoints(const FramePlan& plan)
 }
 
 void SoftwarePicture::handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer,
-  vtkActor* actor, const FramePlan& plan, std::int64_t storePoints)
+  vtkActor* actor, const FramePlan& plan, std::int64_t storePoints, vtkMapper* owner)
 {
   if (last_->rectangle().empty())
   {
@@ -119,6 +119,7 @@ void SoftwarePicture::handOver(vtkOpenGLRenderWindow* window, vtkRenderer* rende
   drawing.place = drawing.textures;
   std::copy(originPx_, originPx_ + 2, drawing.originPx);
   drawing.storePoints = storePoints;
+  drawing.owner = owner;
   mapper_->Draw(renderer, actor, drawing);
 }
 

@@ -13,6 +13,7 @@
 #include <vector>
 
 class vtkActor;
+class vtkMapper;
 class vtkOpenGLPointFrontPicture;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
@@ -34,9 +35,10 @@ public:
   /// Draws the plan with threads. `ids`: also makes the point ids of all pixels, for a selection.
   RasterStatistics draw(
     vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids);
-  /// Hands over the last drawing, as if it were geometry of the actor.
+  /// Hands over the last drawing, as if it were geometry of the actor. `owner`: the mapper whose
+  /// coincident offset it has.
   void handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor,
-    const FramePlan& plan, std::int64_t storePoints);
+    const FramePlan& plan, std::int64_t storePoints, vtkMapper* owner);
   void release(vtkOpenGLRenderWindow* window);
   /// Tells that nothing of it is shown: gives the memory of pictures back.
   void leaveScreen();

@@ -15,13 +15,17 @@
 #include <vtkActor.h>
 #include <vtkCommand.h>
 #include <vtkIndent.h>
+#include <vtkInformation.h>
+#include <vtkInformationObjectBaseVectorKey.h>
 #include <vtkLight.h>
 #include <vtkLightCollection.h>
 #include <vtkObjectFactory.h>
+#include <vtkOpenGLRenderPass.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkShaderProperty.h>
+#include <vtkShadowMapBakerPass.h>
 #include <vtkWindow.h>
 
 #include <algorithm>
@@ -75,6 +79,22 @@ bool hasTooManyGroups(const std::vector<pointfront::LayerStyling>& layers)
 bool areSpheresOfVTK(vtkActor* actor, const pointfront::CloudLook& look)
 {
   return !look.shading && actor->GetProperty()->GetRenderPointsAsSpheres();
+}
+
+/// VTK draws all from a light's place, for the shadows that things cast. It would be a view of its
+/// own, and the frame's first one: the picture would have the detail that the light sees.
+bool drawsShadows(vtkActor* actor)
+{
+  vtkInformation* const keys = actor->GetPropertyKeys();
+  const int passes = keys ? keys->Length(vtkOpenGLRenderPass::RenderPasses()) : 0;
+  for (int i = 0; i < passes; ++i)
+  {
+    if (vtkShadowMapBakerPass::SafeDownCast(keys->Get(vtkOpenGLRenderPass::RenderPasses(), i)))
+    {
+      return true;
+    }
+  }
+  return false;
 }
 
 std::size_t lightsThatAreOn(vtkRenderer* renderer)
@@ -156,7 +176,7 @@ void vtkOpenGLPointFrontMapper::ReadTimer(vtkRenderer* renderer, pointfront::Fra
 void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* actor)
 {
   auto* window = vtkOpenGLRenderWindow::SafeDownCast(renderer->GetRenderWindow());
-  if (!window || window->CheckAbortStatus())
+  if (!window || window->CheckAbortStatus() || drawsShadows(actor))
   {
     return;
   }
@@ -220,7 +240,7 @@ vtkIdType vtkOpenGLPointFrontMapper::HandOver(vtkRenderer* renderer, vtkActor* a
   {
     drawing.softwarePicture().handOver(
       static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow()), renderer, actor, plan,
-      this->GetStore()->GetNumberOfPoints());
+      this->GetStore()->GetNumberOfPoints(), this);
   }
   return points;
 }
@@ -256,7 +276,7 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
   }
   if (points > 0 || !plan.standIns.empty())
   {
-    drawing.splats().handOver(renderer, actor, plan, storePoints);
+    drawing.splats().handOver(renderer, actor, plan, storePoints, this);
   }
   return points;
 }

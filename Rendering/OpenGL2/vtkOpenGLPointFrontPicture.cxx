@@ -1,5 +1,6 @@
 #include "vtkOpenGLPointFrontPicture.h"
 
+#include "CoincidentOffset.h"
 #include "OpenGLFunctions.h"
 #include "SelectionIds.h"
 
@@ -38,6 +39,7 @@ void vtkOpenGLPointFrontPicture::Draw(
   vtkRenderer* renderer, vtkActor* actor, const pointfront::PictureDrawing& drawing)
 {
   this->Drawing = &drawing;
+  drawing.owner ? pointfront::copyPointOffset(drawing.owner, this) : void();
   // Without points in its input the superclass only registers its resources with the window.
   this->Superclass::RenderPiece(renderer, actor);
   this->RenderPieceStart(renderer, actor);
@@ -133,6 +135,23 @@ void vtkOpenGLPointFrontPicture::SetMapperShaderParameters(
     }
   }
   program->SetUniformMatrix("pictureViewToClip", viewToClip);
+  this->SetOffset(cellBO, ren, act);
+}
+
+/// Its pixels are moved as points are, except by what VTK adds in selections.
+void vtkOpenGLPointFrontPicture::SetOffset(vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
+{
+  float factor = 0.0f;
+  float offset = 0.0f;
+  if (this->Drawing->owner)
+  {
+    const auto drawn = cellBO.PrimitiveType;
+    cellBO.PrimitiveType = PrimitivePoints; // the superclass asks it
+    this->GetCoincidentParameters(ren, act, factor, offset);
+    cellBO.PrimitiveType = drawn;
+    offset -= pointfront::selectsPoints(ren) ? pointfront::selectionOffset : 0.0f;
+  }
+  cellBO.Program->SetUniformf("pictureOffset", offset / 65000.0f); // as the superclass's shaders
 }
 
 void vtkOpenGLPointFrontPicture::UpdateMaximumPointCellIds(vtkRenderer* ren, vtkActor*)

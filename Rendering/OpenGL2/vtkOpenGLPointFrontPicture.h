@@ -31,6 +31,7 @@ struct PictureDrawing
   PixelRectangle textures; ///< where they lie in the viewport
   PixelRectangle place; ///< the pixels that are handed over
   vtkIdType storePoints = 0; ///< ids are below it
+  vtkMapper* owner = nullptr; ///< whose coincident offset it has; null: none
 };
 } // namespace pointfront
 
@@ -67,6 +68,7 @@ private:
   void operator=(const vtkOpenGLPointFrontPicture&) = delete;
 
   bool IsDrawingIds() const;
+  void SetOffset(vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act);
 
   const pointfront::PictureDrawing* Drawing = nullptr;
   vtkNew<vtkPolyData> NoInput;

@@ -1,5 +1,6 @@
 #include "vtkOpenGLPointFrontPoints.h"
 
+#include "CoincidentOffset.h"
 #include "ColourMapTexture.h"
 #include "DrawBatches.h"
 #include "GpuPool.h"
@@ -38,15 +39,6 @@ vtkStandardNewMacro(vtkOpenGLPointFrontPoints);
 
 namespace
 {
-
-/// vtkOpenGLPolyDataMapper adds it to the coincident offset of points in selections.
-constexpr float selectionOffset = -2.0f;
-
-bool selectsPoints(vtkRenderer* renderer)
-{
-  vtkHardwareSelector* selector = renderer->GetSelector();
-  return selector && selector->GetFieldAssociation() == vtkDataObject::FIELD_ASSOCIATION_POINTS;
-}
 
 std::string definitions(pointfront::PointColouring::Kind kind, bool ids)
 {
@@ -105,14 +97,7 @@ void vtkOpenGLPointFrontPoints::CopyState(vtkMapper* owner)
   {
     this->SetClippingPlanes(owner->GetClippingPlanes());
   }
-  double mine = 0.0;
-  double wanted = 0.0;
-  this->GetRelativeCoincidentTopologyPointOffsetParameter(mine);
-  owner->GetRelativeCoincidentTopologyPointOffsetParameter(wanted);
-  if (mine != wanted)
-  {
-    this->SetRelativeCoincidentTopologyPointOffsetParameter(wanted);
-  }
+  pointfront::copyPointOffset(owner, this);
 }
 
 void vtkOpenGLPointFrontPoints::Draw(
@@ -179,6 +164,31 @@ void vtkOpenGLPointFrontPoints::ReplaceShaderPicking(
   pointfront::replacePicking(shaders, this->LastSelectionState, "pointIdVSOutput");
 }
 
+/// VTK gives view coordinates to what it lights only; code of render passes, as that of shadows,
+/// uses them for everything.
+void vtkOpenGLPointFrontPoints::ReplaceShaderPositionVC(
+  std::map<vtkShader::Type, vtkShader*> shaders, vtkRenderer* ren, vtkActor* act)
+{
+  this->Superclass::ReplaceShaderPositionVC(shaders, ren, act);
+  std::string vertex = shaders[vtkShader::Vertex]->GetSource();
+  std::string fragment = shaders[vtkShader::Fragment]->GetSource();
+  const auto has = [](const std::string& source, const char* tag)
+  { return source.find(tag) != std::string::npos; };
+  if (has(vertex, "//POINTFRONT::PositionVC::Impl") && has(vertex, "//VTK::PositionVC::Dec") &&
+    has(fragment, "//VTK::PositionVC::Dec") && has(fragment, "//VTK::PositionVC::Impl"))
+  {
+    vtkShaderProgram::Substitute(
+      vertex, "//VTK::PositionVC::Dec", "uniform mat4 MCVCMatrix;\nout vec4 vertexVCVSOutput;\n");
+    vtkShaderProgram::Substitute(
+      vertex, "//POINTFRONT::PositionVC::Impl", "vertexVCVSOutput = MCVCMatrix * vertexMC;\n");
+    vtkShaderProgram::Substitute(fragment, "//VTK::PositionVC::Dec", "in vec4 vertexVCVSOutput;\n");
+    vtkShaderProgram::Substitute(
+      fragment, "//VTK::PositionVC::Impl", "vec4 vertexVC = vertexVCVSOutput;\n");
+    shaders[vtkShader::Vertex]->SetSource(vertex);
+    shaders[vtkShader::Fragment]->SetSource(fragment);
+  }
+}
+
 /// Without what VTK moves points by in selections: they would win over what hides them, 30 m behind
 /// it at a distance of 1 km with a near plane at 1 m.
 void vtkOpenGLPointFrontPoints::ReplaceShaderCoincidentOffset(
@@ -187,7 +197,7 @@ void vtkOpenGLPointFrontPoints::ReplaceShaderCoincidentOffset(
   float factor = 0.0f;
   float offset = 0.0f;
   this->GetCoincidentParameters(ren, act, factor, offset);
-  if (!selectsPoints(ren) || factor != 0.0f || offset != selectionOffset)
+  if (!pointfront::selectsPoints(ren) || factor != 0.0f || offset != pointfront::selectionOffset)
   {
     this->Superclass::ReplaceShaderCoincidentOffset(shaders, ren, act);
   }
@@ -238,12 +248,12 @@ void vtkOpenGLPointFrontPoints::SetCameraShaderParameters(
   vtkOpenGLHelper& cellBO, vtkRenderer* ren, vtkActor* act)
 {
   this->Superclass::SetCameraShaderParameters(cellBO, ren, act);
-  if (selectsPoints(ren) && cellBO.Program->IsUniformUsed("cOffset"))
+  if (pointfront::selectsPoints(ren) && cellBO.Program->IsUniformUsed("cOffset"))
   {
     float factor = 0.0f;
     float offset = 0.0f;
     this->GetCoincidentParameters(ren, act, factor, offset);
-    cellBO.Program->SetUniformf("cOffset", offset - selectionOffset);
+    cellBO.Program->SetUniformf("cOffset", offset - pointfront::selectionOffset);
   }
 
   // The superclass's matrices take world coordinates; ours are relative to the reference point, and
@@ -343,7 +353,7 @@ void vtkOpenGLPointFrontPoints::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
   vtkOpenGLState* state = window->GetState();
   this->DrawingVertices = false;
   this->DrawingSelection = false;
-  if (selectsPoints(ren))
+  if (pointfront::selectsPoints(ren))
   {
     // Its points are those of the pixels that show them. VTK would draw squares of two pixels at
     // least, and without a depth mask the last point near the surface, not the nearest.

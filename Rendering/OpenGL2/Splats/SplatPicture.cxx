@@ -236,8 +236,8 @@ void SplatPicture::putLens(const FrameLens& lens, std::int16_t number, const Spl
   }
 }
 
-void SplatPicture::handOver(
-  vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints)
+void SplatPicture::handOver(vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan,
+  std::int64_t storePoints, vtkMapper* owner)
 {
   if (shown_.empty())
   {
@@ -256,6 +256,7 @@ void SplatPicture::handOver(
   drawing.place = shown_;
   std::copy(originPx_, originPx_ + 2, drawing.originPx);
   drawing.storePoints = storePoints;
+  drawing.owner = owner;
   mapper_->Draw(renderer, actor, drawing);
 }
 

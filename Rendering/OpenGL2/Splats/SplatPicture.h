@@ -13,6 +13,7 @@
 #include <vector>
 
 class vtkActor;
+class vtkMapper;
 class vtkOpenGLPointFrontPicture;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
@@ -39,9 +40,10 @@ public:
   /// `unfinished`: another frame follows, with more points on the GPU.
   std::int64_t draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan,
     const GpuPool& pool, const TableOf& tableOf, bool ids, bool unfinished);
-  /// Hands over the last drawing, as if it were geometry of the actor.
-  void handOver(
-    vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan, std::int64_t storePoints);
+  /// Hands over the last drawing, as if it were geometry of the actor. `owner`: the mapper whose
+  /// coincident offset it has; null: none.
+  void handOver(vtkRenderer* renderer, vtkActor* actor, const FramePlan& plan,
+    std::int64_t storePoints, vtkMapper* owner = nullptr);
   /// Kept points of the last drawing: the picture before showed them and the plan lacks them.
   std::int64_t keptPoints() const;
   void release(vtkOpenGLRenderWindow* window);

@@ -15,6 +15,8 @@ uniform ivec2 pictureOrigin;      // corner of the viewport, pixels of the frame
 uniform ivec2 pictureCorner;      // corner of the textures in the viewport, pixels
 uniform vec2 pictureSize;         // size of the viewport, pixels
 uniform mat4 pictureViewToClip;
+uniform float pictureOffset;      // for coincident topology: a part of the range of depths
+uniform int cameraParallel;       // for code of render passes
 
 uniform float ambientIntensity;
 uniform float diffuseIntensity;
@@ -51,7 +53,7 @@ void main()
   vec3 normalVCVSOutput = vec3(0.0, 0.0, 1.0); // towards the eye, as VTK's points have it
   float clipZ = pictureViewToClip[3][2] - pictureViewToClip[2][2] * depth;
   float clipW = pictureViewToClip[3][3] - pictureViewToClip[2][3] * depth;
-  gl_FragDepth = 0.5 * clipZ / clipW + 0.5;
+  gl_FragDepth = 0.5 * clipZ / clipW + 0.5 + pictureOffset;
   //VTK::UniformFlow::Impl
   //VTK::DepthPeeling::PreColor
   //VTK::ValuePass::Impl

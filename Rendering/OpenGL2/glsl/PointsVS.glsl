@@ -89,6 +89,7 @@ void main()
   //VTK::Clip::Impl
   //VTK::PrimID::Impl
   //VTK::PositionVC::Impl
+  //POINTFRONT::PositionVC::Impl
   //VTK::ValuePass::Impl
   //VTK::Light::Impl
 #if POINTFRONT_PICKING

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
 
 namespace pointfront
@@ -38,13 +39,15 @@ void MapperFronts::setPiece(int piece, int pieces)
     store_->GetStore()->hierarchy(), std::clamp(piece, 0, pieces - 1), pieces);
 }
 
-RendererFront& MapperFronts::of(vtkRenderer* renderer)
+RendererFront& MapperFronts::of(vtkRenderer* renderer, vtkActor* actor)
 {
   for (auto view = views_.begin(); view != views_.end();)
   {
-    view = view->second.Renderer ? std::next(view) : views_.erase(view);
+    const bool there = view->second.Renderer && view->second.Actor;
+    view = there ? std::next(view) : views_.erase(view);
   }
-  const auto found = views_.find(renderer);
+  const auto key = std::make_pair(renderer, actor);
+  const auto found = views_.find(key);
   if (found != views_.end())
   {
     return found->second;
@@ -56,13 +59,33 @@ RendererFront& MapperFronts::of(vtkRenderer* renderer)
       unseen_();
     }
   };
-  return views_.try_emplace(renderer, renderer, left).first->second; // a map's stay where they are
+  return views_.try_emplace(key, renderer, actor, left).first->second; // they stay where they are
 }
 
-RendererFront* MapperFronts::find(vtkRenderer* renderer)
+RendererFront* MapperFronts::find(vtkRenderer* renderer, vtkActor* actor)
 {
-  const auto view = views_.find(renderer);
+  const auto view = views_.find({ renderer, actor });
   return view != views_.end() ? &view->second : nullptr;
+}
+
+FrameStatistics MapperFronts::statisticsOf(vtkRenderer* renderer) const
+{
+  std::optional<FrameStatistics> all;
+  for (const auto& [key, view] : views_)
+  {
+    if (key.first == renderer && view.Renderer && view.Actor && !view.NewFrame)
+    {
+      all ? all->add(view.Statistics) : void(all = view.Statistics);
+    }
+  }
+  return all.value_or(FrameStatistics());
+}
+
+/// The fronts of a frame refer to their store.
+bool MapperFronts::isBetweenFrames(vtkRenderer* renderer) const
+{
+  return std::all_of(views_.begin(), views_.end(),
+    [&](const auto& view) { return view.first.first != renderer || view.second.NewFrame; });
 }
 
 bool MapperFronts::openFront(vtkRenderer* renderer, RendererFront& view)
@@ -80,7 +103,7 @@ bool MapperFronts::openFront(vtkRenderer* renderer, RendererFront& view)
 bool MapperFronts::isSeen() const
 {
   return std::any_of(views_.begin(), views_.end(),
-    [](const auto& view) { return view.second.Renderer && view.second.Seen; });
+    [](const auto& view) { return view.second.Renderer && view.second.Actor && view.second.Seen; });
 }
 
 std::uint32_t MapperFronts::countIn(vtkWindow* window) const
@@ -93,7 +116,7 @@ std::uint32_t MapperFronts::countIn(vtkWindow* window) const
 std::uint64_t MapperFronts::pointsOnGpu(vtkWindow* window, std::uint64_t budget) const
 {
   std::uint64_t points = 0;
-  for (const auto& [renderer, view] : views_)
+  for (const auto& [key, view] : views_)
   {
     const ViewFront* const front = view.View.front();
     const bool inside = front && view.Renderer && view.Renderer->GetRenderWindow() == window;
@@ -113,18 +136,17 @@ bool MapperFronts::needsRender()
     return true;
   }
   bool needed = false;
-  for (auto& [renderer, view] : views_)
+  for (auto& [key, view] : views_)
   {
-    needed = (view.Renderer && view.NeedsRender()) || needed;
+    needed = (view.Renderer && view.Actor && view.NeedsRender()) || needed;
   }
   return needed;
 }
 
-bool MapperFronts::follow(
-  vtkRenderer* renderer, const std::function<FrameRequest()>& requestOf, const LayersOf& layersOf)
+bool MapperFronts::follow(vtkRenderer* renderer, vtkActor* actor,
+  const std::function<FrameRequest()>& requestOf, const LayersOf& layersOf)
 {
-  // Between frames only: the fronts of a frame refer to their store.
-  if (!store_ || !store_->IsPreview() || !of(renderer).NewFrame)
+  if (!store_ || !store_->IsPreview() || !isBetweenFrames(renderer))
   {
     return false;
   }
@@ -138,17 +160,21 @@ bool MapperFronts::follow(
     succession_ = std::make_unique<StoreSuccession>(
       next, *store_, std::clamp(pieceNumber_, 0, pieces_ - 1), pieces_);
   }
-  for (auto& [viewing, view] : views_) // others may not be rendered for a while
+  const RendererFront* const viewing = &of(renderer, actor);
+  for (auto& [key, view] : views_) // others may not be rendered for a while
   {
-    if (view.View.front() || viewing == renderer)
+    if (view.View.front() || &view == viewing)
     {
-      FrameRequest wanted = viewing == renderer ? requestOf() : view.View.request();
+      FrameRequest wanted = &view == viewing ? requestOf() : view.View.request();
       wanted.layers = layersOf(*succession_->store());
-      succession_->advance(viewing, std::move(wanted));
+      succession_->advance(&view, std::move(wanted));
     }
   }
   const auto shown = [&](const auto& view)
-  { return !view.second.View.front() || !view.second.Renderer || succession_->ready(view.first); };
+  {
+    const RendererFront& one = view.second;
+    return !one.View.front() || !one.Renderer || !one.Actor || succession_->ready(&one);
+  };
   const bool all = std::all_of(views_.begin(), views_.end(), shown);
   if (all)
   {
@@ -160,9 +186,9 @@ bool MapperFronts::follow(
 void MapperFronts::takeSuccessor()
 {
   const std::unique_ptr<StoreSuccession> succession = std::move(succession_);
-  for (auto& [renderer, view] : views_)
+  for (auto& [key, view] : views_)
   {
-    view.View.open(succession->take(renderer));
+    view.View.open(succession->take(&view));
     view.Plan.reset();
     view.Announced = false;
     if (view.View.front() && view.Renderer)

@@ -23,8 +23,9 @@ bool isInteracting(vtkRenderer* renderer)
   return window && window->GetDesiredUpdateRate() > interactiveRate;
 }
 
-RendererFront::RendererFront(vtkRenderer* renderer, std::function<void()> unseen)
+RendererFront::RendererFront(vtkRenderer* renderer, vtkActor* actor, std::function<void()> unseen)
   : Renderer(renderer)
+  , Actor(actor)
   , Unseen(std::move(unseen))
 {
   vtkNew<vtkCallbackCommand> begin;

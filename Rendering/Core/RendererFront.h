@@ -1,8 +1,10 @@
 #pragma once
 
 #include "pointfront/Plan/FramePlan.h"
+#include "pointfront/Plan/FrameStatistics.h"
 #include "pointfront/Plan/StoreView.h"
 
+#include <vtkActor.h>
 #include <vtkRenderer.h>
 #include <vtkWeakPointer.h>
 
@@ -15,11 +17,12 @@ namespace pointfront
 /// Whether the user moves the view of the renderer's window: VTK's interactors then ask for a rate.
 bool isInteracting(vtkRenderer* renderer);
 
-/// One renderer's view of a mapper's store, and the state of the renderer's frames.
+/// One renderer's view of a mapper's store in one actor, and the state of the renderer's frames.
 /// Threads  the renderer's.
 struct RendererFront
 {
   vtkWeakPointer<vtkRenderer> Renderer;
+  vtkWeakPointer<vtkActor> Actor;
   StoreView View;
   /// The plan of the frame that is being drawn. It pins its nodes, so it is dropped at the end of
   /// the frame.
@@ -30,10 +33,11 @@ struct RendererFront
   bool UploadsLeft = false;
   bool Complete = false;
   bool Announced = false; ///< ViewCompleteEvent was invoked for that view
+  FrameStatistics Statistics; ///< its last frame's
 
-  /// `unseen` is called after a frame of the renderer in which this mapper was not drawn: its actor
+  /// `unseen` is called after a frame of the renderer in which the actor was not drawn: it
   /// is hidden, out of sight or removed.
-  RendererFront(vtkRenderer* renderer, std::function<void()> unseen);
+  RendererFront(vtkRenderer* renderer, vtkActor* actor, std::function<void()> unseen);
   ~RendererFront();
   RendererFront(const RendererFront&) = delete;
   RendererFront& operator=(const RendererFront&) = delete;

@@ -15,10 +15,10 @@ StoreSuccession::StoreSuccession(
   store_->SetHostMemoryBudget(preview.GetHostMemoryBudget());
 }
 
-void StoreSuccession::advance(vtkRenderer* renderer, FrameRequest request)
+void StoreSuccession::advance(const RendererFront* view, FrameRequest request)
 {
   const AttributeSchema& schema = store_->GetStore()->description().schema;
-  std::unique_ptr<ViewFront>& front = fronts_[renderer];
+  std::unique_ptr<ViewFront>& front = fronts_[view];
   if (!front)
   {
     front = std::make_unique<ViewFront>(piece_, store_->GetResidencyShare(), schema,
@@ -33,9 +33,9 @@ void StoreSuccession::advance(vtkRenderer* renderer, FrameRequest request)
   front->update(request);
 }
 
-bool StoreSuccession::ready(vtkRenderer* renderer) const
+bool StoreSuccession::ready(const RendererFront* view) const
 {
-  const auto front = fronts_.find(renderer);
+  const auto front = fronts_.find(view);
   return front != fronts_.end() && front->second->last().complete;
 }
 
@@ -45,9 +45,9 @@ bool StoreSuccession::wantsUpdate() const
     [](const auto& entry) { return entry.second->wantsUpdate() || entry.second->last().complete; });
 }
 
-std::unique_ptr<ViewFront> StoreSuccession::take(vtkRenderer* renderer)
+std::unique_ptr<ViewFront> StoreSuccession::take(const RendererFront* view)
 {
-  const auto front = fronts_.find(renderer);
+  const auto front = fronts_.find(view);
   return front != fronts_.end() ? std::move(front->second) : nullptr;
 }
 

@@ -11,10 +11,10 @@
 
 #include <vtkSmartPointer.h>
 
-class vtkRenderer;
-
 namespace pointfront
 {
+
+struct RendererFront;
 
 /// Changes from a preview to its next version, or to the finished store, without a gap. Fronts on
 /// the successor move and load beside the fronts that are drawn, and replace them when they show
@@ -29,23 +29,23 @@ public:
   StoreSuccession(vtkSmartPointer<vtkPointFrontStore> successor, vtkPointFrontStore& preview,
     int piece, int pieces);
 
-  /// Moves the successor's front for that renderer. `request`: the request of the front that is
+  /// Moves the successor's front for that view. `request`: the request of the front that is
   /// drawn, with the layers of the successor.
-  void advance(vtkRenderer* renderer, FrameRequest request);
-  /// Whether the front for that renderer shows everything that its view asks for.
-  bool ready(vtkRenderer* renderer) const;
+  void advance(const RendererFront* view, FrameRequest request);
+  /// Whether its front shows everything that the view asks for.
+  bool ready(const RendererFront* view) const;
   /// Whether nodes arrived, or work is left.
   bool wantsUpdate() const;
 
   const vtkSmartPointer<vtkPointFrontStore>& store() const { return store_; }
   const std::shared_ptr<const HierarchyPiece>& piece() const { return piece_; }
-  /// The front of that renderer, to be drawn from now on; null if it never advanced.
-  std::unique_ptr<ViewFront> take(vtkRenderer* renderer);
+  /// The front of that view, to be drawn from now on; null if it never advanced.
+  std::unique_ptr<ViewFront> take(const RendererFront* view);
 
 private:
   vtkSmartPointer<vtkPointFrontStore> store_; // before the fronts, which refer to it
   std::shared_ptr<const HierarchyPiece> piece_;
-  std::map<vtkRenderer*, std::unique_ptr<ViewFront>> fronts_;
+  std::map<const RendererFront*, std::unique_ptr<ViewFront>> fronts_;
 };
 
 } // namespace pointfront

@@ -383,17 +383,19 @@ protected:
   pointfront::FramePlan& PlanFrame(
     vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look);
   /// True from PlanFrame() to FinishFrame(): the frame's first drawing, which uploads.
-  bool IsFirstDrawing(vtkRenderer* renderer) const;
+  bool IsFirstDrawing(vtkRenderer* renderer, vtkActor* actor) const;
   /// True when the front was moved since the renderer's last frame (see NeedsRender()): a further
   /// drawing of that frame may show nodes that are not on the GPU yet.
-  bool IsAheadOfFrame(vtkRenderer* renderer) const;
+  bool IsAheadOfFrame(vtkRenderer* renderer, vtkActor* actor) const;
   /// The result of the first drawing of a frame. `keptPoints`: points drawn in addition to the
   /// front's, because they were visible before. `uploadsLeft`: not all points of the front are on
   /// the GPU yet.
-  void FinishFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft);
+  void FinishFrame(vtkRenderer* renderer, vtkActor* actor, vtkIdType points, vtkIdType keptPoints,
+    bool uploadsLeft);
   /// Records the work of an earlier frame of that renderer, and its time on CPU and GPU; called as
   /// soon as the time is known.
-  void RecordFrame(vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds);
+  void RecordFrame(
+    vtkRenderer* renderer, vtkActor* actor, vtkIdType points, vtkIdType moves, double milliseconds);
   /// Called when a renderer drew a frame and no renderer shows this mapper any more: its GPU memory
   /// is idle.
   virtual void LeaveScreen();
@@ -407,7 +409,7 @@ protected:
   /// The part of PointBudget that this mapper may have on the GPU of a window, beside the other
   /// clouds of the window; 0: no limit.
   vtkIdType GetPointsOnGPU(vtkWindow* window) const;
-  /// Number of renderers in a window that show this mapper.
+  /// Number of views in a window that show this mapper: renderers with an actor each.
   std::uint32_t GetNumberOfViews(vtkWindow* window) const;
   /// Statistics of the last frame.
   pointfront::FrameStatistics& GetStatistics() const;

@@ -193,7 +193,7 @@ bool vtkPointFrontMapper::MoveFront(
   Content& content = *this->Internals;
   vtkPointFrontStore* store = this->GetStore();
   content.Views.setPiece(this->StorePiece, this->NumberOfStorePieces);
-  pointfront::RendererFront& view = content.Views.of(renderer);
+  pointfront::RendererFront& view = content.Views.of(renderer, actor);
   if (!content.Views.openFront(renderer, view) && (!view.NewFrame || renderer->GetSelector()))
   {
     return false; // a further drawing of the same frame
@@ -245,7 +245,7 @@ std::optional<pointfront::CloudLook> vtkPointFrontMapper::BeginFrame(
   // A frame in motion has no time for a second front, nor for bringing all points to the GPU again.
   if (!renderer->GetSelector() && !IsInteracting(renderer) &&
     content.Views.follow(
-      renderer, [&] { return this->GetFrameRequest(renderer, actor, look); },
+      renderer, actor, [&] { return this->GetFrameRequest(renderer, actor, look); },
       [&](vtkPointFrontStore& next) { return content.Limits.layersOf(next); }))
   {
     this->Modified();
@@ -258,7 +258,7 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
   vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look)
 {
   const bool moved = this->MoveFront(renderer, actor, look);
-  pointfront::RendererFront& view = this->Internals->Views.of(renderer);
+  pointfront::RendererFront& view = this->Internals->Views.of(renderer, actor);
   pointfront::PlanRequest request = this->GetRequest(renderer, actor, look);
   if (moved || !view.Plan)
   {
@@ -272,7 +272,7 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
     view.Plan = view.View.plan(this->GetStore()->GetStore()->description(), std::move(request));
     return *view.Plan;
   }
-  // The same nodes, as another actor, eye or pass sees them.
+  // The same nodes, as another eye or pass sees them.
   view.Plan->camera = request.camera;
   view.Plan->shading = std::move(request.shading); // lights in view space, lenses in pixels
   view.Plan->exchange = request.exchange;
@@ -281,16 +281,16 @@ pointfront::FramePlan& vtkPointFrontMapper::PlanFrame(
   return *view.Plan;
 }
 
-bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer) const
+bool vtkPointFrontMapper::IsFirstDrawing(vtkRenderer* renderer, vtkActor* actor) const
 {
-  const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
+  const pointfront::RendererFront* view = this->Internals->Views.find(renderer, actor);
   return view && view->FirstDrawing;
 }
 
 void vtkPointFrontMapper::FinishFrame(
-  vtkRenderer* renderer, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft)
+  vtkRenderer* renderer, vtkActor* actor, vtkIdType points, vtkIdType keptPoints, bool uploadsLeft)
 {
-  pointfront::RendererFront& view = this->Internals->Views.of(renderer);
+  pointfront::RendererFront& view = this->Internals->Views.of(renderer, actor);
   const pointfront::FrontDelta& delta = view.View.front()->last();
   view.View.drew(static_cast<std::uint64_t>(keptPoints));
   view.FirstDrawing = false;
@@ -308,6 +308,8 @@ void vtkPointFrontMapper::FinishFrame(
   statistics.technique = view.Plan ? techniqueOf(*view.Plan) : std::string();
   statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
   statistics.complete = view.Complete;
+  view.Statistics = statistics;
+  statistics = this->Internals->Views.statisticsOf(renderer);
   const bool announce = view.Complete && !view.Announced;
   view.Announced = view.Complete;
   if (announce)
@@ -317,9 +319,9 @@ void vtkPointFrontMapper::FinishFrame(
 }
 
 void vtkPointFrontMapper::RecordFrame(
-  vtkRenderer* renderer, vtkIdType points, vtkIdType moves, double milliseconds)
+  vtkRenderer* renderer, vtkActor* actor, vtkIdType points, vtkIdType moves, double milliseconds)
 {
-  pointfront::RendererFront* view = this->Internals->Views.find(renderer);
+  pointfront::RendererFront* view = this->Internals->Views.find(renderer, actor);
   if (view && view->View.front())
   {
     view->View.took(
@@ -351,9 +353,9 @@ std::uint32_t vtkPointFrontMapper::GetNumberOfViews(vtkWindow* window) const
   return this->Internals->Views.countIn(window);
 }
 
-bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer) const
+bool vtkPointFrontMapper::IsAheadOfFrame(vtkRenderer* renderer, vtkActor* actor) const
 {
-  const pointfront::RendererFront* view = this->Internals->Views.find(renderer);
+  const pointfront::RendererFront* view = this->Internals->Views.find(renderer, actor);
   return view && view->View.isAhead();
 }
 

@@ -8,6 +8,7 @@
 #include <vtkTextureObject.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <unordered_map>
 
@@ -41,15 +42,27 @@ void handDecided(SoftwareTarget& target)
 SoftwarePicture::SoftwarePicture() = default;
 SoftwarePicture::~SoftwarePicture() = default;
 
+/// Drops those of actors that are gone: another one may have the same address.
+SoftwarePicture::Picture& SoftwarePicture::pictureOf(vtkRenderer* renderer, vtkActor* actor)
+{
+  for (auto picture = pictures_.begin(); picture != pictures_.end();)
+  {
+    picture = picture->second.actor ? std::next(picture) : pictures_.erase(picture);
+  }
+  Picture& picture = pictures_[{ renderer, actor }];
+  picture.actor = actor;
+  return picture;
+}
+
 RasterStatistics SoftwarePicture::draw(
-  vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids)
+  vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor, FramePlan& plan, bool ids)
 {
   int viewport[4];
   window->GetState()->vtkglGetIntegerv(GL_VIEWPORT, viewport);
   originPx_[0] = viewport[0];
   originPx_[1] = viewport[1];
   plan.camera.setViewport(std::max(1, viewport[2]), std::max(1, viewport[3]), plan.camera.margin);
-  Picture& picture = pictures_[renderer];
+  Picture& picture = pictureOf(renderer, actor);
   picture.target.keepPoints = ids;
   picture.target.keepDecided = plan.composited;
   const RasterStatistics statistics =

@@ -5,14 +5,16 @@
 
 #include "pointfront/Plan/FramePlan.h"
 
+#include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkSmartPointer.h>
+#include <vtkWeakPointer.h>
 
 #include <cstdint>
 #include <map>
+#include <utility>
 #include <vector>
 
-class vtkActor;
 class vtkMapper;
 class vtkOpenGLPointFrontPicture;
 class vtkOpenGLRenderWindow;
@@ -33,8 +35,8 @@ public:
   ~SoftwarePicture();
 
   /// Draws the plan with threads. `ids`: also makes the point ids of all pixels, for a selection.
-  RasterStatistics draw(
-    vtkOpenGLRenderWindow* window, vtkRenderer* renderer, FramePlan& plan, bool ids);
+  RasterStatistics draw(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor,
+    FramePlan& plan, bool ids);
   /// Hands over the last drawing, as if it were geometry of the actor. `owner`: the mapper whose
   /// coincident offset it has.
   void handOver(vtkOpenGLRenderWindow* window, vtkRenderer* renderer, vtkActor* actor,
@@ -46,14 +48,16 @@ public:
 private:
   struct Picture
   {
+    vtkWeakPointer<vtkActor> actor;
     SoftwareRasteriser rasteriser; ///< goes on from its last picture
     SoftwareComposition composition;
     SoftwareTarget target;
   };
 
   void numberPoints(const FramePlan& plan);
+  Picture& pictureOf(vtkRenderer* renderer, vtkActor* actor);
 
-  std::map<vtkRenderer*, Picture> pictures_;
+  std::map<std::pair<vtkRenderer*, vtkActor*>, Picture> pictures_;
   const SoftwareTarget* last_ = nullptr;
   int originPx_[2] = { 0, 0 };
   std::vector<float> ids_; ///< 2 a pixel: low and high 24 bits

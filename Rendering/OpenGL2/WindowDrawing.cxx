@@ -114,7 +114,7 @@ void WindowDrawing::release()
   picture_.release(window_);
   splats_.release(window_);
   selection_.release(window_);
-  for (auto& [renderer, timer] : timers_)
+  for (auto& [view, timer] : timers_)
   {
     timer.release();
   }

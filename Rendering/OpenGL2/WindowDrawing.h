@@ -21,6 +21,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 class vtkActor;
@@ -103,7 +104,10 @@ public:
   void leaveScreen();
 
   GpuPool& pool() { return pool_; }
-  FrameTimer& timerOf(vtkRenderer* renderer) { return timers_[renderer]; }
+  FrameTimer& timerOf(vtkRenderer* renderer, vtkActor* actor)
+  {
+    return timers_[{ renderer, actor }];
+  }
 
 private:
   struct StyleGroup
@@ -132,7 +136,7 @@ private:
   SplatPicture selection_; ///< while a view refines
   SplatPicture* drawn_ = &splats_;
   bool refines_ = false; ///< the last frame was of a refining view
-  std::map<vtkRenderer*, FrameTimer> timers_;
+  std::map<std::pair<vtkRenderer*, vtkActor*>, FrameTimer> timers_;
   GpuPool::DrawList order_; ///< items of the plan, near to far
   GpuPool::DrawList wanted_; ///< these, then stand-ins of nodes that the plan has no items of
   std::vector<const ResolvedStyle*> styles_; ///< styles of the items of order_

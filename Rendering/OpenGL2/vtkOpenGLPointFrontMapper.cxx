@@ -164,12 +164,13 @@ vtkOpenGLPointFrontMapper::vtkOpenGLPointFrontMapper()
 vtkOpenGLPointFrontMapper::~vtkOpenGLPointFrontMapper() = default;
 
 /// Tells the front what an earlier frame cost, once.
-void vtkOpenGLPointFrontMapper::ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer)
+void vtkOpenGLPointFrontMapper::ReadTimer(
+  vtkRenderer* renderer, vtkActor* actor, pointfront::FrameTimer& timer)
 {
   if (const auto frame = timer.take())
   {
     this->TimeToDraw = 1e-3 * frame->milliseconds;
-    this->RecordFrame(renderer, frame->points, frame->moves, frame->milliseconds);
+    this->RecordFrame(renderer, actor, frame->points, frame->moves, frame->milliseconds);
   }
 }
 
@@ -190,7 +191,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   pointfront::WindowDrawing& drawing = this->Internals->Of(window);
   drawing.enter(renderer, actor);
   const auto begin = Clock::now();
-  this->ReadTimer(renderer, drawing.timerOf(renderer));
+  this->ReadTimer(renderer, actor, drawing.timerOf(renderer, actor));
   const std::optional<pointfront::CloudLook> look = this->BeginFrame(renderer, actor);
   if (!look)
   {
@@ -198,16 +199,16 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   }
   pointfront::FramePlan& plan = this->PlanFrame(renderer, actor, *look);
   drawing.setStore(this->GetStore());
-  const bool first = this->IsFirstDrawing(renderer);
+  const bool first = this->IsFirstDrawing(renderer, actor);
   const bool host = look->inHostMemory;
   std::uint64_t kept = 0;
   if (host)
   {
     const bool ids = renderer->GetSelector() != nullptr;
-    kept = drawing.softwarePicture().draw(window, renderer, plan, ids).keptVisible;
+    kept = drawing.softwarePicture().draw(window, renderer, actor, plan, ids).keptVisible;
   }
-  const bool uploadsLeft = !host && this->Upload(renderer, drawing, plan);
-  pointfront::FrameTimer& timer = drawing.timerOf(renderer);
+  const bool uploadsLeft = !host && this->Upload(renderer, actor, drawing, plan);
+  pointfront::FrameTimer& timer = drawing.timerOf(renderer, actor);
   const bool timed =
     first && plan.pointCount() > 0 && timer.begin(millisecondsSince(begin), this->GetLastMoves());
   const auto drawn = Clock::now();
@@ -226,7 +227,7 @@ void vtkOpenGLPointFrontMapper::RenderPiece(vtkRenderer* renderer, vtkActor* act
   {
     this->GetStatistics().gpuBytes = drawing.pool().memory().bytes();
     this->GetStatistics().windowGpuBytes = drawing.pool().memory().windowBytes();
-    this->FinishFrame(renderer, points, static_cast<vtkIdType>(kept), uploadsLeft);
+    this->FinishFrame(renderer, actor, points, static_cast<vtkIdType>(kept), uploadsLeft);
   }
   this->UpdateProgress(1.0);
 }
@@ -282,16 +283,16 @@ vtkIdType vtkOpenGLPointFrontMapper::DrawPoints(vtkRenderer* renderer, vtkActor*
 }
 
 /// Uploads points for a frame's first drawing. True when something is left over.
-bool vtkOpenGLPointFrontMapper::Upload(
-  vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
+bool vtkOpenGLPointFrontMapper::Upload(vtkRenderer* renderer, vtkActor* actor,
+  pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan)
 {
   // A still picture waits for all of its points.
   const bool still = this->Complete && !IsInteracting(renderer);
   const std::int64_t limit = still ? std::numeric_limits<std::int64_t>::max() : this->UploadLimit;
-  if (!this->IsFirstDrawing(renderer))
+  if (!this->IsFirstDrawing(renderer, actor))
   {
     // The plan of a selection has no stand-ins, and may have other nodes instead.
-    if (this->IsAheadOfFrame(renderer) || renderer->GetSelector())
+    if (this->IsAheadOfFrame(renderer, actor) || renderer->GetSelector())
     {
       drawing.upload(plan, limit);
     }

@@ -54,9 +54,9 @@ private:
     const pointfront::FramePlan& plan);
   vtkIdType DrawPoints(vtkRenderer* renderer, vtkActor* actor, const pointfront::CloudLook& look,
     pointfront::WindowDrawing& drawing, pointfront::FramePlan& plan, bool uploadsLeft);
-  bool Upload(
-    vtkRenderer* renderer, pointfront::WindowDrawing& drawing, const pointfront::FramePlan& plan);
-  void ReadTimer(vtkRenderer* renderer, pointfront::FrameTimer& timer);
+  bool Upload(vtkRenderer* renderer, vtkActor* actor, pointfront::WindowDrawing& drawing,
+    const pointfront::FramePlan& plan);
+  void ReadTimer(vtkRenderer* renderer, vtkActor* actor, pointfront::FrameTimer& timer);
 
   struct Content;
   std::unique_ptr<Content> Internals;

@@ -17,7 +17,7 @@ namespace
 TEST(Pauses, WhatIsNotSeenIsNeverDue)
 {
   vtkNew<vtkRenderer> renderer;
-  RendererFront front(renderer, [] {});
+  RendererFront front(renderer, nullptr, [] {});
   LoadingView loading(front.View);
   front.NewFrame = false;
   front.View.drew(0);
@@ -30,7 +30,7 @@ TEST(Pauses, WhatIsNotSeenIsNeverDue)
 TEST(Pauses, WhatIsLeftToUploadIsDueAtOnce)
 {
   vtkNew<vtkRenderer> renderer;
-  RendererFront front(renderer, [] {});
+  RendererFront front(renderer, nullptr, [] {});
   const LoadingView loading(front.View);
   front.NewFrame = false;
   front.View.drew(0);
@@ -42,7 +42,7 @@ TEST(Pauses, WhatIsLeftToUploadIsDueAtOnce)
 TEST(Pauses, AFrameThatBeganDoesNotPause)
 {
   vtkNew<vtkRenderer> renderer;
-  RendererFront front(renderer, [] {});
+  RendererFront front(renderer, nullptr, [] {});
   LoadingView loading(front.View);
   front.View.drew(0);
   front.View.took(1, 0, 3.6e6); // an hour, ms

@@ -108,6 +108,48 @@ TEST(Scenes, ShadowsLeaveThePointsAsTheyAre)
     });
 }
 
+/// The front of each actor has the points of its own view.
+TEST(Scenes, AMapperDrawsAllPointsInEachOfItsActors)
+{
+  inAllWays(
+    [](Scene& scene, const std::string& way)
+    {
+      scene.mapper->SetTargetError(0.5);
+      scene.lookFrom({ 1.5, 0.0, 3.0 }, { 1.5, 0.0, 0.0 }); // the first one half outside
+      vtkNew<vtkActor> second;
+      second->SetMapper(scene.mapper);
+      second->SetPosition(2.5, 0.0, 0.0);
+      second->GetProperty()->SetPointSize(3);
+      scene.actor->SetVisibility(false);
+      scene.renderer->AddActor(second);
+      const int alone = scene.draw().lit();
+      const vtkIdType ofSecond = scene.mapper->GetLastPointsDrawn();
+      scene.renderer->RemoveActor(second);
+      scene.actor->SetVisibility(true);
+      const int first = scene.draw().lit();
+      const vtkIdType ofFirst = scene.mapper->GetLastPointsDrawn();
+      scene.renderer->AddActor(second);
+      const Picture both = scene.draw();
+      EXPECT_GT(alone, 8000) << way;
+      EXPECT_GT(first, 2000) << way;
+      EXPECT_EQ(both.lit(), first + alone) << way;
+      EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), ofFirst + ofSecond) << way;
+      EXPECT_EQ(differing(both, scene.draw()), 0) << way << ", another frame";
+      EXPECT_TRUE(scene.mapper->GetLastComplete()) << way;
+      scene.window->SetDesiredUpdateRate(10.0); // in motion, each goes on from its own last frame
+      for (const double x : { 1.4, 1.45, 1.5 })
+      {
+        scene.lookFrom({ x, 0.0, 3.0 }, { x, 0.0, 0.0 });
+        EXPECT_GT(scene.draw().lit(), both.lit() / 2) << way;
+      }
+      scene.window->SetDesiredUpdateRate(0.001);
+      EXPECT_EQ(differing(both, scene.draw()), 0) << way << ", at rest";
+      scene.renderer->RemoveActor(scene.actor);
+      EXPECT_EQ(scene.draw().lit(), alone) << way << ", one left";
+      EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), ofSecond) << way;
+    });
+}
+
 /// Coincident topology moves depths towards the eye, and nothing else.
 TEST(Scenes, AnOffsetBringsPointsBeforeASurface)
 {

@@ -2,6 +2,7 @@
 
 #include "pointfront/Front/FrontDelta.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -48,6 +49,34 @@ struct FrameStatistics
     limitedByGpuMemory = delta.limitedByGpu;
     limitedByMemory = delta.limitedByMemory;
     failedNodes = delta.failedNodes;
+  }
+
+  /// Adds those of another drawing of the cloud in the same frame: sums, and the worse of both.
+  /// GPU memory is the mapper's, and stays.
+  void add(const FrameStatistics& other)
+  {
+    points += other.points;
+    layerPoints.resize(std::max(layerPoints.size(), other.layerPoints.size()));
+    for (std::size_t i = 0; i < other.layerPoints.size(); ++i)
+    {
+      layerPoints[i] += other.layerPoints[i];
+    }
+    nodes += other.nodes;
+    keptPoints += other.keptPoints;
+    frontLength += other.frontLength;
+    moves += other.moves;
+    requests += other.requests;
+    errorPx = std::max(errorPx, other.errorPx);
+    thresholdPx = std::max(thresholdPx, other.thresholdPx);
+    frontMilliseconds += other.frontMilliseconds;
+    gpuBytes = std::max(gpuBytes, other.gpuBytes);
+    windowGpuBytes = std::max(windowGpuBytes, other.windowGpuBytes);
+    technique = technique == other.technique ? technique : std::string();
+    complete = complete && other.complete;
+    limitedByPoints = limitedByPoints || other.limitedByPoints;
+    limitedByGpuMemory = limitedByGpuMemory || other.limitedByGpuMemory;
+    limitedByMemory = limitedByMemory || other.limitedByMemory;
+    failedNodes = std::max(failedNodes, other.failedNodes);
   }
 };
 

@@ -1,5 +1,7 @@
 #include "PointSetSource.h"
 
+#include "pointfront/Table/PositionSurvey.h"
+
 #include <vtkAbstractArray.h>
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
@@ -141,9 +143,17 @@ PointSetSource::PointSetSource(vtkPointSet* points)
   description_.grid = gridOf(points);
 }
 
-Result<std::unique_ptr<PointSetSource>> PointSetSource::make(vtkPointSet* points)
+Result<std::unique_ptr<PointSetSource>> PointSetSource::make(
+  vtkPointSet* points, const SurveyOptions& options)
 {
   std::unique_ptr<PointSetSource> source(new PointSetSource(points));
+  // Before there are attributes, which would be read with the positions.
+  const Result<PositionExtent> extent = surveyPositions(*source, options);
+  if (!extent)
+  {
+    return extent.error();
+  }
+  extent->describe(source->description_);
   if (Result<void> added = source->addArrays(points->GetPointData()); !added)
   {
     return added.error();

@@ -2,6 +2,7 @@
 
 #include "pointfront/Base/Result.h"
 #include "pointfront/Points/ColumnSource.h"
+#include "pointfront/Table/ParallelChunks.h"
 
 #include <vtkSmartPointer.h>
 
@@ -19,7 +20,9 @@ namespace pointfront
 /// The points of a VTK data set with their point data, as they lie there when it is made.
 /// Names     unsigned char arrays "RGB", "RGBA" or "Colors" are "rgb", "Normals" of floats are
 ///           "normal"; all others keep theirs.
-/// Grid      the one of the field data "store_grid" (scales, offsets), if all points lie on it.
+/// Opening   looks at all positions.
+/// Grid      the one of the field data "store_grid" (scales, offsets), if all points lie on it;
+///           else a decimal one, if all lie on that (PositionSurvey).
 /// Left out  ghost marks, "point_id" (a number in another store) and "elevation" where it is z,
 ///           without a word; arrays that hold no numbers, or more than 16 components, with a
 ///           warning; tuples of an array beyond the points', with a warning.
@@ -28,7 +31,8 @@ class PointSetSource final : public ColumnSource
 public:
   /// Errors  BadArgument: an array has fewer tuples than there are points. VTK lets one be set, and
   ///         what lies behind its end is not the caller's.
-  static Result<std::unique_ptr<PointSetSource>> make(vtkPointSet* points);
+  static Result<std::unique_ptr<PointSetSource>> make(
+    vtkPointSet* points, const SurveyOptions& options = {});
   ~PointSetSource() override;
 
 private:

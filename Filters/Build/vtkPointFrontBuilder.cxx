@@ -77,9 +77,10 @@ pointfront::BuildOrder vtkPointFrontBuilder::Content::Order(
   std::sort(order.files.begin(), order.files.end());
   if (this->Points)
   {
-    order.made = [this]() -> pointfront::Result<pointfront::PointSources>
+    const auto threads = static_cast<unsigned>(builder.NumberOfThreads);
+    order.made = [this, threads]() -> pointfront::Result<pointfront::PointSources>
     {
-      auto source = pointfront::PointSetSource::make(this->Points);
+      auto source = pointfront::PointSetSource::make(this->Points, { threads, {} });
       if (!source)
       {
         return source.error();

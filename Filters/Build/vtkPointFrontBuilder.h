@@ -93,7 +93,8 @@ public:
   ///@}
 
   ///@{
-  /// Step of the stored coordinates, world units. 0: the files' own (lossless).
+  /// Step of the stored coordinates, world units. 0: the inputs' own (lossless); where floating
+  /// point numbers lie on no decimal step, one by their extent, with a warning.
   vtkSetClampMacro(Precision, double, 0.0, VTK_DOUBLE_MAX);
   vtkGetMacro(Precision, double);
   ///@}

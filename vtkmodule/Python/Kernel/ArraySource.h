@@ -1,6 +1,9 @@
 #pragma once
 
 #include "pointfront/Points/ColumnSource.h"
+#include "pointfront/Table/PositionSurvey.h"
+
+#include <memory>
 
 namespace pointfront
 {
@@ -9,13 +12,19 @@ namespace pointfront
 class ArraySource final : public ColumnSource
 {
 public:
+  /// Looks at all places, for bounds and a decimal grid.
   /// `places`  three doubles for each of `points` points.
-  ArraySource(const double* places, std::uint64_t points)
-    : places_(places)
+  static Result<std::unique_ptr<ArraySource>> make(
+    const double* places, std::uint64_t points, const SurveyOptions& options)
   {
-    description_.path = "the arrays";
-    description_.format = "NumPy arrays";
-    description_.pointCount = points;
+    std::unique_ptr<ArraySource> source(new ArraySource(places, points));
+    const Result<PositionExtent> extent = surveyPositions(*source, options);
+    if (!extent)
+    {
+      return extent.error();
+    }
+    extent->describe(source->description_);
+    return source;
   }
 
   /// An attribute, `values` as many as there are points. False if there is one of that name.
@@ -25,6 +34,13 @@ public:
   }
 
 private:
+  ArraySource(const double* places, std::uint64_t points)
+    : places_(places)
+  {
+    description_.path = "the arrays";
+    description_.format = "NumPy arrays";
+    description_.pointCount = points;
+  }
   glm::dvec3 position(std::uint64_t point) const override
   {
     const double* const place = places_ + 3 * point;

@@ -207,10 +207,15 @@ Json columnsOf(pointfront::PlainColumns& points)
 
 /// Sources that the order of a build makes of the caller's arrays.
 Result<std::unique_ptr<pointfront::PointSource>> sourceOf(
-  const PointFrontArray* arrays, std::size_t arrayCount, std::uint64_t points)
+  const PointFrontArray* arrays, std::size_t arrayCount, std::uint64_t points, unsigned threads)
 {
-  auto source =
-    std::make_unique<pointfront::ArraySource>(static_cast<const double*>(arrays[0].data), points);
+  auto made = pointfront::ArraySource::make(
+    static_cast<const double*>(arrays[0].data), points, { threads, {} });
+  if (!made)
+  {
+    return made.error();
+  }
+  std::unique_ptr<pointfront::ArraySource> source = std::move(*made);
   for (std::size_t a = 1; a < arrayCount; ++a)
   {
     const PointFrontArray& array = arrays[a];
@@ -379,7 +384,7 @@ char* pointfrontBuild(const char* request, const PointFrontArray* arrays, std::s
       std::unique_ptr<pointfront::PointSource> source;
       if (arrayCount > 0)
       {
-        auto made = sourceOf(arrays, arrayCount, points);
+        auto made = sourceOf(arrays, arrayCount, points, order.options.threads);
         if (!made)
         {
           return made.error();

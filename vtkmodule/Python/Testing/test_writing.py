@@ -70,6 +70,32 @@ class Writing(unittest.TestCase):
                                  precision=0.001)
         self.assertEqual(again.points_stored, count)
 
+    def test_points_of_any_size_stay_apart(self):
+        """The steps were 0.001, whatever the arrays held."""
+        random = numpy.random.default_rng(2)
+        store = self.folder / "sized.pfront"
+        for size in (0.002, 1.0, 1e8):
+            xyz = random.random((5000, 3)) * size
+            with self.assertWarnsRegex(pointfront.PointFrontWarning, "rounded to steps"):
+                pointfront.build({"position": xyz}, store, overwrite=True, preview=False)
+            with pointfront.open(store) as cloud:
+                back = cloud.points()["position"]
+            self.assertEqual(len(numpy.unique(back, axis=0)), len(xyz), size)
+            self.assertLess(abs(numpy.sort(back[:, 0]) - numpy.sort(xyz[:, 0])).max(), 1e-6 * size)
+
+    def test_decimal_coordinates_are_not_rounded(self):
+        steps = numpy.arange(3000).reshape(1000, 3)
+        store = self.folder / "decimal.pfront"
+        for kind in (numpy.float64, numpy.float32):
+            with warnings.catch_warnings(record=True) as told:
+                warnings.simplefilter("always")
+                pointfront.build({"position": (steps * 1e-5).astype(kind)}, store, overwrite=True,
+                                 preview=False)
+            self.assertNotIn("rounded", " ".join(str(warning.message) for warning in told))
+            with pointfront.open(store) as cloud:
+                back = cloud.points()["position"]
+            numpy.testing.assert_allclose(numpy.sort(back, axis=0), steps * 1e-5, 0, atol=1e-15)
+
     def test_what_is_no_cloud_is_refused(self):
         xyz = numpy.zeros((3, 3))
         for points, problem, says in (

@@ -6,8 +6,6 @@
 #include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
-#include <vtkFloatArray.h>
-#include <vtkIntArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -64,6 +62,22 @@ protected:
     array->Fill(0.0);
     data->GetPointData()->AddArray(array);
   }
+  /// The distinct positions in the store.
+  std::size_t places() const
+  {
+    std::set<std::tuple<std::int64_t, std::int64_t, std::int64_t>> found;
+    const auto opened = store();
+    for (pointfront::NodeIndex node = 0; opened && node < opened->hierarchy()->nodeCount(); ++node)
+    {
+      const auto columns = opened->read(node, {});
+      for (std::size_t i = 0; columns && i < columns->size(); ++i)
+      {
+        const auto steps = columns->origin + pointfront::GridPosition(columns->positions[i]);
+        found.insert({ steps.x, steps.y, steps.z });
+      }
+    }
+    return found.size();
+  }
   std::string warnings() const { return errors->GetWarning() ? errors->GetWarningMessage() : ""; }
   std::shared_ptr<const pointfront::PointStore> store() const
   {
@@ -104,6 +118,58 @@ TEST_F(PointSets, OfAnArrayOfMoreTuplesThanPointsTheFirstAreStored)
   EXPECT_NE(warnings().find("\"elevation\" has 70000 tuples"), std::string::npos) << warnings();
   EXPECT_EQ(store()->description().pointCount, 10u);
   EXPECT_TRUE(store()->description().schema.find("elevation"));
+}
+
+/// The build decided on steps of 0.001, whatever the points were: 27 places of 20,000 were left of
+/// the smallest of these, and the largest was refused.
+TEST_F(PointSets, PointsOfAnySizeStayApart)
+{
+  constexpr int count = 5000;
+  for (const double size : { 0.002, 0.1, 1000.0, 1e8, 1e13 })
+  {
+    for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+    {
+      std::mt19937 random(1);
+      std::uniform_real_distribution<double> along(0.0, size);
+      vtkNew<vtkPoints> points;
+      points->SetDataType(type);
+      std::set<std::tuple<double, double, double>> given;
+      for (int i = 0; i < count; ++i)
+      {
+        points->InsertNextPoint(along(random), along(random), along(random));
+        double place[3];
+        points->GetPoint(i, place);
+        given.insert({ place[0], place[1], place[2] });
+      }
+      data->SetPoints(points);
+      errors->Clear();
+      ASSERT_EQ(builder->Write(), 1) << size << errors->GetErrorMessage();
+      EXPECT_EQ(places(), given.size()) << size;
+      EXPECT_LE(store()->description().grid.scale.x, 1.01e-6 * size) << size;
+    }
+  }
+}
+
+TEST_F(PointSets, DecimalCoordinatesAreNotRounded)
+{
+  for (const int type : { VTK_FLOAT, VTK_DOUBLE })
+  {
+    vtkNew<vtkPoints> points;
+    points->SetDataType(type);
+    for (int i = 0; i < 2000; ++i)
+    {
+      points->InsertNextPoint(2e-5 * i, 0.07, 1e-5 * (i % 7));
+    }
+    data->SetPoints(points);
+    errors->Clear();
+    ASSERT_EQ(builder->Write(), 1);
+    EXPECT_EQ(store()->description().grid.scale.x, 1e-5);
+    EXPECT_EQ(warnings().find("rounded"), std::string::npos) << warnings();
+    builder->SetPrecision(0.001);
+    ASSERT_EQ(builder->Write(), 1);
+    EXPECT_EQ(store()->description().grid.scale.x, 0.001);
+    builder->SetPrecision(0.0);
+  }
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 
 #include "pointfront/Table/DecimalStep.h"
 #include "pointfront/Table/FieldRole.h"
+#include "pointfront/Table/PositionSurvey.h"
 
 #include <algorithm>
 #include <array>
@@ -15,8 +16,6 @@ namespace pointfront
 namespace
 {
 constexpr std::uint64_t sampledChunks = 64;
-constexpr double mostSteps = 2147483647.0; // steps of an extent: 32 bits in a store
-constexpr int mostDecimals = 15;
 
 bool isInteger(const TableField& field)
 {
@@ -191,48 +190,14 @@ Result<Survey> surveyed(const PointTable& table, const SurveyOptions& options)
   return survey;
 }
 
-struct Extent
-{
-  Bounds bounds;
-  std::optional<QuantisationGrid> grid;
-};
-
-/// A decimal grid of so many places on each axis; nothing where the extent has too many steps, or
-/// the coordinates have more digits than double precision.
-std::optional<QuantisationGrid> decimalGrid(
-  const std::array<int, 3>& decimals, const glm::dvec3& low, const glm::dvec3& high)
-{
-  QuantisationGrid grid;
-  for (int axis = 0; axis < 3; ++axis)
-  {
-    const int places = decimals[static_cast<std::size_t>(axis)];
-    const double step = std::pow(10.0, -places);
-    const double reach = std::max(std::abs(low[axis]), std::abs(high[axis]));
-    if (places > mostDecimals || !((high[axis] - low[axis]) / step < mostSteps) ||
-      !(reach / step < mostStepsInDouble))
-    {
-      return std::nullopt;
-    }
-    // Written as a quotient: the nearest double to the decimal step.
-    grid.scale[axis] = 1.0 / std::pow(10.0, places);
-    grid.offset[axis] = reach / step < mostSteps ? 0.0 : std::round(0.5 * (low[axis] + high[axis]));
-  }
-  return grid;
-}
-
 /// Whether the coordinates lie on a decimal grid that a store can hold, see TableSource.
-/// `origin` is to be added to them; one of whole units changes nothing about their decimals.
-Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields, const Survey& survey,
-  const glm::dvec3& origin)
+PositionExtent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields,
+  const Survey& survey, const glm::dvec3& origin)
 {
-  Extent extent;
-  std::array<int, 3> decimals{};
-  bool exact = true;
-  glm::dvec3 low(0.0);
-  glm::dvec3 high(0.0);
-  for (int axis = 0; axis < 3; ++axis)
+  std::array<AxisFacts, 3> axes;
+  for (std::size_t axis = 0; axis < axes.size(); ++axis)
   {
-    const auto& field = plan.position[static_cast<std::size_t>(axis)];
+    const auto& field = plan.position[axis];
     if (!field)
     {
       continue;
@@ -240,30 +205,15 @@ Extent extentOf(const ColumnPlan& plan, const std::vector<TableField>& fields, c
     const FieldStatistics& values = survey.statistics[*field];
     if (values.empty())
     {
-      return extent;
+      return {};
     }
-    low[axis] = values.low;
-    high[axis] = values.high;
     const bool text = values.digits > 0;
-    const std::optional<int> step = text || isInteger(fields[*field]) ? values.decimals
+    const std::optional<int> decimals = text || isInteger(fields[*field]) ? values.decimals
       : survey.whole ? survey.steps[*field].decimals()
                      : std::nullopt;
-    exact = exact && step;
-    decimals[static_cast<std::size_t>(axis)] = step.value_or(0);
+    axes[axis] = { values.low, values.high, decimals };
   }
-  low += origin;
-  high += origin;
-  extent.bounds.add(low);
-  extent.bounds.add(high);
-  if (exact && origin == glm::round(origin))
-  {
-    // One step for all axes where they have it; heights in metres over degrees have not.
-    std::array<int, 3> most{};
-    most.fill(*std::max_element(decimals.begin(), decimals.end()));
-    extent.grid = decimalGrid(most, low, high);
-    extent.grid = extent.grid ? extent.grid : decimalGrid(decimals, low, high);
-  }
-  return extent;
+  return extentOf(axes, origin);
 }
 
 template <typename T>
@@ -324,7 +274,7 @@ Result<std::unique_ptr<TableSource>> TableSource::make(
   {
     return plan.error();
   }
-  const Extent extent = extentOf(*plan, fields, *survey, table->origin());
+  const PositionExtent extent = extentOf(*plan, fields, *survey, table->origin());
   auto source = std::unique_ptr<TableSource>(new TableSource(std::move(table), std::move(*plan)));
   SourceDescription& description = source->description_;
   description.path = source->table_->path();
@@ -334,10 +284,8 @@ Result<std::unique_ptr<TableSource>> TableSource::make(
     description.pointCount += source->chunkPoints(chunk);
   }
   description.headerPointCount = source->table_->headerPointCount();
-  description.declaredBounds = extent.bounds;
-  description.boundsLookedUp = true;
-  const std::optional<QuantisationGrid> stated = source->table_->grid();
-  description.grid = stated ? stated : extent.grid;
+  description.grid = source->table_->grid();
+  extent.describe(description);
   description.scanners = source->table_->scanners(extent.bounds);
   description.schema = source->plan_.schema;
   description.warnings = source->table_->warnings();

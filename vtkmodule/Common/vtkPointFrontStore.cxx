@@ -314,8 +314,8 @@ void vtkPointFrontStore::GetBounds(double bounds[6]) const
   const pointfront::Bounds& b = this->Internals->store->description().bounds;
   for (int axis = 0; axis < 3; ++axis)
   {
-    bounds[2 * axis] = b.low[axis];
-    bounds[2 * axis + 1] = b.high[axis];
+    bounds[2 * axis] = b.empty() ? 1.0 : b.low[axis]; // as vtkMath::UninitializeBounds()
+    bounds[2 * axis + 1] = b.empty() ? -1.0 : b.high[axis];
   }
 }
 

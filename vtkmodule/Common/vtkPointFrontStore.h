@@ -71,7 +71,8 @@ public:
   /// Absolute path of the file, or the address without user, password and query: a mark stands for
   /// them, and Open() takes it in this process.
   const char* GetFileName() const;
-  /// Bounds of all points (world, tight), without reading any of them.
+  /// Bounds of all points (world, tight), without reading any of them. Without points those of
+  /// vtkMath::UninitializeBounds().
   void GetBounds(double bounds[6]) const;
   vtkIdType GetNumberOfPoints() const;
   /// Points of all stores that are open in this process.

@@ -2,10 +2,12 @@
 
 #include "pointfront/Store/PointStore.h"
 #include "vtkPointFrontBuilder.h"
+#include "vtkPointFrontStore.h"
 
 #include <vtkCommand.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -169,6 +171,22 @@ TEST_F(PointSets, DecimalCoordinatesAreNotRounded)
     ASSERT_EQ(builder->Write(), 1);
     EXPECT_EQ(store()->description().grid.scale.x, 0.001);
     builder->SetPrecision(0.0);
+  }
+}
+
+TEST_F(PointSets, BoundsOfAnEmptyStoreAreThoseOfVTK)
+{
+  data->SetPoints(vtkNew<vtkPoints>());
+  ASSERT_EQ(builder->Write(), 1);
+  vtkStdString error;
+  const auto empty = vtkPointFrontStore::Open(path.c_str(), error);
+  ASSERT_NE(empty, nullptr) << error;
+  double bounds[6];
+  empty->GetBounds(bounds);
+  EXPECT_FALSE(vtkMath::AreBoundsInitialized(bounds));
+  for (int end = 0; end < 6; ++end)
+  {
+    EXPECT_EQ(bounds[end], end % 2 == 0 ? 1.0 : -1.0);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <vtkDataArray.h>
 #include <vtkDataSetAttributes.h>
 #include <vtkFieldData.h>
+#include <vtkIdList.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPointSet.h>
@@ -127,6 +128,21 @@ std::optional<QuantisationGrid> gridOf(vtkPointSet* points)
   return grid;
 }
 
+/// The points without the marks of duplicates and hidden ones; null if no point has such a mark.
+vtkSmartPointer<vtkIdList> unmarked(vtkDataArray* marks, vtkIdType count)
+{
+  constexpr int leftOut = vtkDataSetAttributes::DUPLICATEPOINT | vtkDataSetAttributes::HIDDENPOINT;
+  auto kept = vtkSmartPointer<vtkIdList>::New();
+  for (vtkIdType i = 0; i < count; ++i)
+  {
+    if ((static_cast<int>(marks->GetComponent(i, 0)) & leftOut) == 0)
+    {
+      kept->InsertNextId(i);
+    }
+  }
+  return kept->GetNumberOfIds() < count ? kept : nullptr;
+}
+
 } // namespace
 
 PointSetSource::PointSetSource(vtkPointSet* points)
@@ -139,7 +155,8 @@ PointSetSource::PointSetSource(vtkPointSet* points)
   {
     return;
   }
-  description_.pointCount = static_cast<std::uint64_t>(points_->GetNumberOfPoints());
+  count_ = points_->GetNumberOfPoints();
+  description_.pointCount = static_cast<std::uint64_t>(count_);
   description_.grid = gridOf(points);
 }
 
@@ -147,6 +164,10 @@ Result<std::unique_ptr<PointSetSource>> PointSetSource::make(
   vtkPointSet* points, const SurveyOptions& options)
 {
   std::unique_ptr<PointSetSource> source(new PointSetSource(points));
+  if (Result<void> left = source->leaveOutMarked(points->GetPointData()); !left)
+  {
+    return left.error();
+  }
   // Before there are attributes, which would be read with the positions.
   const Result<PositionExtent> extent = surveyPositions(*source, options);
   if (!extent)
@@ -154,22 +175,66 @@ Result<std::unique_ptr<PointSetSource>> PointSetSource::make(
     return extent.error();
   }
   extent->describe(source->description_);
-  if (Result<void> added = source->addArrays(points->GetPointData()); !added)
+  if (Result<void> added = source->addArrays(*points); !added)
   {
     return added.error();
   }
   return source;
 }
 
-Result<void> PointSetSource::addArrays(vtkPointData* attributes)
+Result<void> PointSetSource::checkTuples(vtkDataArray* array)
 {
+  const vtkIdType tuples = array->GetNumberOfTuples();
+  if (tuples == count_)
+  {
+    return {};
+  }
+  const std::string found = " point data \"" + std::string(array->GetName()) + "\" has " +
+    std::to_string(tuples) + " tuples, and there are " + std::to_string(count_) + " points";
+  if (tuples < count_)
+  {
+    return makeError(Error::Kind::BadArgument, "the" + found + ": give each point a tuple");
+  }
+  description_.warnings.push_back("The" + found + ": the first are stored.");
+  return {};
+}
+
+Result<void> PointSetSource::leaveOutMarked(vtkPointData* attributes)
+{
+  auto* marks = attributes->GetArray(vtkDataSetAttributes::GhostArrayName());
+  if (!points_ || !marks)
+  {
+    return {};
+  }
+  if (Result<void> enough = checkTuples(marks); !enough)
+  {
+    return enough;
+  }
+  kept_ = unmarked(marks, count_);
+  if (kept_)
+  {
+    auto shown = vtkSmartPointer<vtkPoints>::New();
+    shown->SetDataType(points_->GetDataType());
+    points_->GetPoints(kept_, shown);
+    points_ = shown;
+    description_.pointCount = static_cast<std::uint64_t>(kept_->GetNumberOfIds());
+    description_.warnings.push_back(std::to_string(count_ - kept_->GetNumberOfIds()) + " of " +
+      std::to_string(count_) + " points are left out: \"" + marks->GetName() +
+      "\" marks them as duplicate or hidden.");
+  }
+  return {};
+}
+
+Result<void> PointSetSource::addArrays(vtkPointSet& points)
+{
+  vtkPointData* attributes = points.GetPointData();
   for (int i = 0; points_ && i < attributes->GetNumberOfArrays(); ++i)
   {
     vtkAbstractArray* array = attributes->GetAbstractArray(i);
     const std::string name = array->GetName() ? array->GetName() : "";
     auto* numbers = vtkDataArray::SafeDownCast(array);
     const bool told = name == vtkDataSetAttributes::GhostArrayName() || name == "point_id" ||
-      (name == "elevation" && numbers && isHeight(numbers, points_));
+      (name == "elevation" && numbers && isHeight(numbers, points.GetPoints()));
     if (told)
     {
       continue;
@@ -181,17 +246,9 @@ Result<void> PointSetSource::addArrays(vtkPointData* attributes)
         "\" are left out: a store holds named numbers of 1 to 16 components.");
       continue;
     }
-    const auto tuples = static_cast<std::uint64_t>(numbers->GetNumberOfTuples());
-    if (const std::uint64_t count = description_.pointCount; tuples != count)
+    if (Result<void> enough = checkTuples(numbers); !enough)
     {
-      const std::string found = "\"" + name + "\" has " + std::to_string(tuples) +
-        " tuples, and there are " + std::to_string(count) + " points";
-      if (tuples < count)
-      {
-        return makeError(
-          Error::Kind::BadArgument, "the point data " + found + ": give each point a tuple");
-      }
-      description_.warnings.push_back("The point data " + found + ": the first are stored.");
+      return enough;
     }
     this->add(numbers);
   }
@@ -217,7 +274,14 @@ void PointSetSource::add(vtkDataArray* array)
     attribute.name = "normal";
   }
   vtkSmartPointer<vtkDataArray> column = array;
-  if (!array->HasStandardMemoryLayout())
+  if (kept_)
+  {
+    column.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
+    column->SetNumberOfComponents(array->GetNumberOfComponents());
+    column->SetNumberOfTuples(kept_->GetNumberOfIds());
+    array->GetTuples(kept_, column);
+  }
+  else if (!array->HasStandardMemoryLayout())
   {
     column.TakeReference(vtkDataArray::CreateDataArray(array->GetDataType()));
     column->DeepCopy(array);

@@ -5,11 +5,13 @@
 #include "pointfront/Table/ParallelChunks.h"
 
 #include <vtkSmartPointer.h>
+#include <vtkType.h>
 
 #include <memory>
 #include <vector>
 
 class vtkDataArray;
+class vtkIdList;
 class vtkPointData;
 class vtkPoints;
 class vtkPointSet;
@@ -23,8 +25,9 @@ namespace pointfront
 /// Opening   looks at all positions.
 /// Grid      the one of the field data "store_grid" (scales, offsets), if all points lie on it;
 ///           else a decimal one, if all lie on that (PositionSurvey).
-/// Left out  ghost marks, "point_id" (a number in another store) and "elevation" where it is z,
-///           without a word; arrays that hold no numbers, or more than 16 components, with a
+/// Left out  points that "vtkGhostType" marks as duplicate or hidden, with a warning that counts
+///           them, and the marks, "point_id" (a number in another store) and "elevation" where it
+///           is z, without a word; arrays that hold no numbers, or more than 16 components, with a
 ///           warning; tuples of an array beyond the points', with a warning.
 class PointSetSource final : public ColumnSource
 {
@@ -37,11 +40,16 @@ public:
 
 private:
   explicit PointSetSource(vtkPointSet* points);
-  Result<void> addArrays(vtkPointData* attributes);
+  /// A warning where an array has more tuples than there are points.
+  Result<void> checkTuples(vtkDataArray* array);
+  Result<void> leaveOutMarked(vtkPointData* attributes);
+  Result<void> addArrays(vtkPointSet& points);
   void add(vtkDataArray* array);
   glm::dvec3 position(std::uint64_t point) const override;
 
   vtkSmartPointer<vtkPoints> points_;
+  vtkIdType count_ = 0; ///< points of the data set
+  vtkSmartPointer<vtkIdList> kept_; ///< those of them that are stored; null: all
   std::vector<vtkSmartPointer<vtkDataArray>> arrays_; ///< kept alive; of contiguous tuples
 };
 

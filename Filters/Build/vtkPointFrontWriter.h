@@ -2,9 +2,10 @@
  * @class vtkPointFrontWriter
  * @brief writes the points of any vtkPointSet as a `.pfront` store
  *
- * A store gets the points with their point data; it leaves out cells and points without a place
- * (NaN). The writer replaces a store of the same name, as VTK's writers do, but never a file of
- * another kind. Every property means what the option of `pointfront build` of that name means.
+ * A store gets the points with their point data; it leaves out cells, points without a place (NaN),
+ * and those that vtkGhostType marks. The writer replaces a store of the same name, as VTK's writers
+ * do, but never a file of another kind. Every property means what that option of `pointfront build`
+ * means.
  *
  * ProgressEvent and AbortExecuteOn() as in vtkPointFrontBuilder. Errors: Write() returns 1 as
  * vtkWriter's does; ErrorCode and vtkErrorMacro say what is wrong.

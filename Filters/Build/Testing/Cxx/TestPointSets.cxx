@@ -5,16 +5,20 @@
 #include "vtkPointFrontStore.h"
 
 #include <vtkCommand.h>
+#include <vtkDataSetAttributes.h>
 #include <vtkDoubleArray.h>
 #include <vtkErrorCode.h>
+#include <vtkIntArray.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <filesystem>
 #include <random>
 #include <set>
@@ -188,6 +192,43 @@ TEST_F(PointSets, BoundsOfAnEmptyStoreAreThoseOfVTK)
   {
     EXPECT_EQ(bounds[end], end % 2 == 0 ? 1.0 : -1.0);
   }
+}
+
+TEST_F(PointSets, MarkedPointsAreLeftOutAndCounted)
+{
+  setRow(70000);
+  vtkNew<vtkIntArray> numbers;
+  numbers->SetName("number");
+  vtkNew<vtkUnsignedCharArray> marks;
+  marks->SetName(vtkDataSetAttributes::GhostArrayName());
+  for (int i = 0; i < 70000; ++i)
+  {
+    numbers->InsertNextValue(i);
+    marks->InsertNextValue(i % 10 == 3 ? vtkDataSetAttributes::DUPLICATEPOINT
+        : i % 10 == 7                  ? vtkDataSetAttributes::HIDDENPOINT
+                                       : 0);
+  }
+  data->GetPointData()->AddArray(numbers);
+  data->GetPointData()->AddArray(marks);
+  ASSERT_EQ(builder->Write(), 1);
+  EXPECT_NE(warnings().find("14000 of 70000 points"), std::string::npos) << warnings();
+  const auto opened = store();
+  ASSERT_EQ(opened->description().pointCount, 56000u);
+  std::size_t seen = 0;
+  for (pointfront::NodeIndex node = 0; node < opened->hierarchy()->nodeCount(); ++node)
+  {
+    const auto columns = opened->read(node, { 0 });
+    ASSERT_TRUE(columns.ok());
+    for (std::size_t i = 0; i < columns->size(); ++i, ++seen)
+    {
+      std::int32_t number = 0;
+      std::memcpy(&number, columns->columns[0].data() + sizeof number * i, sizeof number);
+      const auto steps = columns->origin + pointfront::GridPosition(columns->positions[i]);
+      ASSERT_EQ(opened->description().grid.toWorld(steps).x, number);
+      ASSERT_TRUE(number % 10 != 3 && number % 10 != 7) << number;
+    }
+  }
+  EXPECT_EQ(seen, 56000u);
 }
 
 } // namespace

@@ -135,6 +135,9 @@ void vtkPointFrontBuilder::Content::Choose(
   using Normals = pointfront::PassChoice::Normals;
   choice.targetCrs = builder.CRS ? builder.CRS : "";
   choice.assumedCrs = builder.AssumedCRS ? builder.AssumedCRS : "";
+  choice.targetCrsName = "CRS";
+  choice.assumedCrsName = "AssumedCRS";
+  choice.inputsMayNameCrs = !this->Points;
   choice.colourFrom = this->ColorImages;
   choice.attributeFrom = this->AttributeImages;
   choice.normals = builder.Normals == PCA ? Normals::PCA

@@ -71,8 +71,7 @@ Result<AttributePasses> chosenPasses(const PassChoice& choice)
     return sound.error();
   }
   AttributePasses passes;
-  Result<std::unique_ptr<AttributePass>> oneSystem =
-    oneSystemPass(choice.targetCrs, choice.assumedCrs);
+  Result<std::unique_ptr<AttributePass>> oneSystem = oneSystemPass(choice);
   if (!oneSystem)
   {
     return oneSystem.error();

@@ -12,11 +12,15 @@ std::shared_ptr<const CoordinateSystems> knownSystems()
   return std::make_shared<ProjCoordinateSystems>();
 }
 
-Result<std::unique_ptr<AttributePass>> oneSystemPass(
-  const std::string& target, const std::string& assumed)
+Result<std::unique_ptr<AttributePass>> oneSystemPass(const PassChoice& choice)
 {
-  return std::unique_ptr<AttributePass>(
-    std::make_unique<ProjectionPass>(ProjectionOptions{ target, assumed }));
+  ProjectionOptions options;
+  options.target = choice.targetCrs;
+  options.assumed = choice.assumedCrs;
+  options.targetName = choice.targetCrsName;
+  options.assumedName = choice.assumedCrsName;
+  options.inputsMayName = choice.inputsMayNameCrs;
+  return std::unique_ptr<AttributePass>(std::make_unique<ProjectionPass>(std::move(options)));
 }
 
 Result<std::unique_ptr<PointSink>> sinkInSystem(

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "pointfront/Points/AttributePass.h"
+#include "pointfront/Points/PassChoice.h"
 #include "pointfront/Points/PointSink.h"
 #include "pointfront/Reference/CoordinateSystems.h"
 
@@ -15,11 +16,10 @@ namespace pointfront
 /// Never null.
 std::shared_ptr<const CoordinateSystems> knownSystems();
 
-/// The pass that gives all inputs one system: `target` and `assumed` as in PassChoice. Without PROJ
-/// it gives the inputs on as they are, with a finding, if all that name a system name the same.
-/// Errors   Unsupported: a build without PROJ, and one of the two is not empty.
-Result<std::unique_ptr<AttributePass>> oneSystemPass(
-  const std::string& target, const std::string& assumed);
+/// The pass that gives all inputs one system, by what PassChoice says of it. Without PROJ it gives
+/// the inputs on as they are, with a finding, if all that name a system name the same. Errors
+/// Unsupported: a build without PROJ, and a system is named.
+Result<std::unique_ptr<AttributePass>> oneSystemPass(const PassChoice& choice);
 
 /// A sink whose points are transformed into the system `target` first.
 /// Errors   Unsupported: a build without PROJ.

@@ -89,10 +89,9 @@ std::shared_ptr<const CoordinateSystems> knownSystems()
   return std::make_shared<NoCoordinateSystems>();
 }
 
-Result<std::unique_ptr<AttributePass>> oneSystemPass(
-  const std::string& target, const std::string& assumed)
+Result<std::unique_ptr<AttributePass>> oneSystemPass(const PassChoice& choice)
 {
-  if (!target.empty() || !assumed.empty())
+  if (!choice.targetCrs.empty() || !choice.assumedCrs.empty())
   {
     return leftOut("naming a coordinate reference system", option);
   }

@@ -122,7 +122,7 @@ ProjectionPass::Known ProjectionPass::systemOf(const SourceDescription& source) 
   if (!reason.empty())
   {
     findings_.push_back(source.path + ": its coordinate reference system is not known: " + reason +
-      (options_.assumed.empty() ? ". Name it with --assume-crs."
+      (options_.assumed.empty() ? ". Name it with " + options_.assumedName + "."
                                 : ". It is taken to be what is assumed."));
   }
   return std::nullopt;
@@ -191,8 +191,8 @@ Result<std::optional<CoordinateSystem>> ProjectionPass::chooseTarget(
     {
       return makeError(Error::Kind::BadArgument,
         sources[s]->description().path + ": names no coordinate reference system, so its points " +
-          "cannot be transformed to " + options_.target +
-          "; say with --assume-crs what they are in");
+          "cannot be transformed to " + options_.target + "; say with " + options_.assumedName +
+          " what they are in");
     }
   }
   Result<CoordinateSystem> target = [&]() -> Result<CoordinateSystem>
@@ -363,8 +363,9 @@ void ProjectionPass::warnOfDegrees(const PointSources& sources, const std::vecto
   if (target && target->geographic)
   {
     findings_.push_back("The coordinates are longitudes and latitudes (" + target->name +
-      "): distances and levels of detail mix degrees with heights. --crs utm transforms them to "
-      "metres, as does --crs with any projected system.");
+      "): distances and levels of detail mix degrees with heights. " + options_.targetName +
+      " utm transforms them to metres, as does " + options_.targetName +
+      " with any projected system.");
     return;
   }
   for (std::size_t s = 0; s < sources.size(); ++s)
@@ -373,7 +374,9 @@ void ProjectionPass::warnOfDegrees(const PointSources& sources, const std::vecto
     {
       findings_.push_back(sources[s]->description().path +
         ": the coordinates look like longitudes "
-        "and latitudes. If they are, --assume-crs EPSG:4326 --crs utm transforms them to metres.");
+        "and latitudes. If they are, " +
+        options_.assumedName + " EPSG:4326 and " + options_.targetName +
+        " utm transform them to metres.");
     }
   }
 }
@@ -398,10 +401,11 @@ Result<PointSources> ProjectionPass::apply(PointSources sources, const PassResou
   warnOfDegrees(sources, *systems, *target);
   if (!*target)
   {
-    if (findings_.empty())
+    if (findings_.empty() && options_.inputsMayName)
     {
       findings_.push_back("No input says which coordinate reference system it is in, so the store "
-                          "says none either. Name it with --assume-crs if you know it.");
+                          "says none either. Name it with " +
+        options_.assumedName + " if you know it.");
     }
     return sources;
   }

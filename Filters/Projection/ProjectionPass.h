@@ -19,6 +19,9 @@ struct ProjectionOptions
   /// the zone that the first input lies in. Empty: the system of the first that names one.
   std::string target;
   std::string assumed; ///< likewise without "utm": what inputs are in that name none
+  std::string targetName = "--crs"; ///< the two in messages
+  std::string assumedName = "--assume-crs";
+  bool inputsMayName = true; ///< whether it is worth a finding that no input names a system
 };
 
 /// Gives all sources one coordinate reference system (FRONT-1): names it as WKT, also where a file

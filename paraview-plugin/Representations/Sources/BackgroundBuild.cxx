@@ -19,16 +19,16 @@ namespace
 constexpr int niceness = 10;
 
 /// The message of an event: without the source line and the object that VTK puts before it, and
-/// with the property's name for the tool's option.
+/// with the property's label for its name.
 std::string messageOf(const void* data)
 {
   std::string text = static_cast<const char*>(data);
   const std::size_t object = text.find("): ");
   text = object == std::string::npos ? text : text.substr(object + 3);
-  const std::string option = "--assume-crs";
-  if (const std::size_t place = text.find(option); place != std::string::npos)
+  const std::string property = "AssumedCRS";
+  if (const std::size_t place = text.find(property); place != std::string::npos)
   {
-    text.replace(place, option.size(), "Assumed CRS");
+    text.replace(place, property.size(), "Assumed CRS");
   }
   const std::size_t end = text.find_last_not_of('\n');
   return text.substr(0, end == std::string::npos ? 0 : end + 1);

@@ -88,6 +88,8 @@ PassChoice passesOf(const nlohmann::json& request)
   PassChoice choice;
   choice.targetCrs = valueOf(request, "crs", std::string());
   choice.assumedCrs = valueOf(request, "assumed_crs", std::string());
+  choice.targetCrsName = "crs";
+  choice.assumedCrsName = "assumed_crs";
   choice.colourFrom = valueOf(request, "color_from", choice.colourFrom);
   choice.attributeFrom = valueOf(request, "attribute_from", choice.attributeFrom);
   const auto normals = valueOf(request, "normals", std::string());

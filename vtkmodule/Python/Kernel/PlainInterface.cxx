@@ -390,6 +390,7 @@ char* pointfrontBuild(const char* request, const PointFrontArray* arrays, std::s
           return made.error();
         }
         source = std::move(*made);
+        order.passes.inputsMayNameCrs = false;
         order.made = [&source]() -> Result<pointfront::PointSources>
         {
           pointfront::PointSources sources;

@@ -20,6 +20,7 @@
 
 #include <cstring>
 #include <filesystem>
+#include <fstream>
 #include <random>
 #include <set>
 #include <string>
@@ -229,6 +230,21 @@ TEST_F(PointSets, MarkedPointsAreLeftOutAndCounted)
     }
   }
   EXPECT_EQ(seen, 56000u);
+}
+
+/// Points of a program's memory have no system by nature; files might have named one.
+TEST_F(PointSets, OnlyFilesAreAskedForAReferenceSystemByThePropertysName)
+{
+  setRow(100);
+  ASSERT_EQ(builder->Write(), 1);
+  EXPECT_EQ(warnings().find("reference system"), std::string::npos) << warnings();
+  const fs::path text = folder / "some.xyz";
+  std::ofstream(text) << "1 2 3\n4 5 6\n7 8 10\n";
+  builder->SetPoints(nullptr);
+  builder->AddFileName(text.c_str());
+  ASSERT_EQ(builder->Write(), 1);
+  EXPECT_NE(warnings().find("AssumedCRS"), std::string::npos) << warnings();
+  EXPECT_EQ(warnings().find("--"), std::string::npos) << warnings();
 }
 
 } // namespace

@@ -26,6 +26,12 @@ struct PassChoice
 
   std::string targetCrs; ///< a code, a definition, a file with one, "utm"; empty: the inputs'
   std::string assumedCrs; ///< system of inputs that name none; empty: unknown
+  /// The two in messages, by the names that their user knows.
+  std::string targetCrsName = "--crs";
+  std::string assumedCrsName = "--assume-crs";
+  /// Whether inputs could name a system, so that it is worth a warning if none does; points in a
+  /// program's memory could not.
+  bool inputsMayNameCrs = true;
 
   std::vector<std::string> colourFrom; ///< georeferenced images: files, patterns, folders
   std::vector<std::string> attributeFrom; ///< likewise, NAME=IMAGE; without NAME= as the one before

@@ -130,7 +130,7 @@ TEST_F(Writer, SaysWhatItCannotWrite)
 
 TEST_F(Writer, TellsThoseWhoObserveIt)
 {
-  writer->SetInputData(data);
+  writer->SetFileName(nullptr);
   vtkNew<ErrorObserver> errors;
   writer->AddObserver(vtkCommand::ErrorEvent, errors);
   writer->Write();

@@ -81,13 +81,43 @@ int pointFormatFor(const Needs& needs)
   return nir ? 8 : (rgb ? 7 : 6);
 }
 
-/// A column can be a LAS field if it has as many components and is that type, or a narrower
-/// unsigned one.
-bool fits(const Attribute& column, const Attribute& field)
+bool isFloat(ScalarType type)
 {
-  const bool widened = column.type == ScalarType::UInt8 && field.type == ScalarType::UInt16;
-  return column.components == field.components && (column.type == field.type || widened) &&
-    column.scale == 1.0 && column.offset == 0.0;
+  return type == ScalarType::Float32 || type == ScalarType::Float64;
+}
+
+/// Whether all values of a column are known to be integers that the type holds.
+bool holdsAll(const SinkDescription& description, std::size_t column, ScalarType type)
+{
+  if (isFloat(description.schema[column].type) || column >= description.largest.size() ||
+    column >= description.smallest.size())
+  {
+    return false;
+  }
+  return visitScalar(type,
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      return description.smallest[column] >=
+        static_cast<double>(std::numeric_limits<T>::lowest()) &&
+        description.largest[column] <= static_cast<double>(std::numeric_limits<T>::max());
+    });
+}
+
+/// A column can be a LAS field if it has as many components and its type, or if the field's type
+/// holds all its values. LAS rounds angles anyway.
+bool fits(const SinkDescription& description, std::size_t column, const Attribute& field)
+{
+  const Attribute& own = description.schema[column];
+  if (own.components != field.components || own.scale != 1.0 || own.offset != 0.0)
+  {
+    return false;
+  }
+  const bool exact = field.type == ScalarType::Float64 && sizeOf(own.type) <= 4;
+  const bool angle = field.name == "scan_angle";
+  return own.type == field.type || exact || angle ||
+    (own.type == ScalarType::UInt8 && field.type == ScalarType::UInt16) ||
+    (!isFloat(field.type) && holdsAll(description, column, field.type));
 }
 
 /// Attributes that are not LAS fields, and where each comes from. Arrays of more than three have
@@ -112,8 +142,9 @@ void addExtra(std::size_t column, const Attribute& attribute, std::vector<Attrib
 }
 
 /// Fills layout and origins; gives the extra attributes with the names they have in the schema.
-std::vector<Attribute> layOut(const AttributeSchema& schema, int format, LASExport& plan)
+std::vector<Attribute> layOut(const SinkDescription& description, int format, LASExport& plan)
 {
+  const AttributeSchema& schema = description.schema;
   const LASPointLayout own = makeLASPointLayout(format, {});
   plan.origins.assign(own.schema.size(), std::nullopt);
   std::vector<Attribute> extra;
@@ -121,7 +152,8 @@ std::vector<Attribute> layOut(const AttributeSchema& schema, int format, LASExpo
   {
     const auto field = std::find_if(own.schema.begin(), own.schema.end(),
       [&](const Attribute& candidate) { return candidate.name == schema[c].name; });
-    if (field != own.schema.end() && fits(schema[c], *field))
+    const bool isField = field != own.schema.end();
+    if (isField && fits(description, c, *field))
     {
       plan.origins[static_cast<std::size_t>(field - own.schema.begin())] =
         LASExport::Origin{ c, 0, schema[c].type };
@@ -129,6 +161,12 @@ std::vector<Attribute> layOut(const AttributeSchema& schema, int format, LASExpo
     else
     {
       addExtra(c, schema[c], extra, plan.origins);
+      if (isField)
+      {
+        plan.findings.push_back("'" + schema[c].name + "' has values that LAS's own field (" +
+          std::string(nameOf(field->type)) +
+          ") does not hold: the field is 0, and they are extra bytes of that name.");
+      }
     }
   }
   plan.layout = makeLASPointLayout(format, extra);
@@ -325,7 +363,7 @@ Result<LASExport> LASExport::plan(
   {
     return done.error();
   }
-  const std::vector<Attribute> extra = layOut(description.schema, pointFormatFor(needs), plan);
+  const std::vector<Attribute> extra = layOut(description, pointFormatFor(needs), plan);
   if (plan.layout.pointBytes > std::numeric_limits<std::uint16_t>::max())
   {
     return makeError(Error::Kind::BadArgument,

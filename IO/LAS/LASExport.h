@@ -62,6 +62,8 @@ struct LASExport
   std::vector<MetadataRecord> records; ///< written before the points
   std::vector<MetadataRecord> extendedRecords; ///< payloads above 65,535 bytes, behind them
 
+  /// Attributes of the name of a field that does not hold them: full sentences.
+  std::vector<std::string> findings;
   /// OfCOPC: the reference system was known by GeoTIFF keys only, which are left out.
   bool lostGeoKeys = false;
 

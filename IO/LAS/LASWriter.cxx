@@ -64,6 +64,11 @@ std::string LASWriter::path() const
   return state_->path;
 }
 
+std::vector<std::string> LASWriter::findings() const
+{
+  return state_->plan.findings;
+}
+
 Result<void> LASWriter::begin(const SinkDescription& description)
 {
   State& state = *state_;

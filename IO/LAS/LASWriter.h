@@ -6,6 +6,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -14,7 +15,8 @@ namespace pointfront
 /// Format      the smallest that holds the schema's attributes: point formats 0 to 5 unless there
 ///             is a scanner channel, near infrared, a class above 31 or an 8th return; then 6 to
 ///             10. LAS 1.2 where it suffices, 1.3 for wave packets, 1.4 for the rest.
-/// Extra       attributes that are not LAS fields become extra bytes, with their descriptors.
+/// Extra       attributes that are not LAS fields, or that a field of their name does not hold,
+///             become extra bytes, with their descriptors.
 /// Exactness   the integers of the grid, and every attribute that came from a LAS file, are written
 ///             as they were; colour of 8 bit is written as it is, not spread over 16 bit.
 /// Errors      as in PointSink; BadArgument names the attribute or coordinate that does not fit.
@@ -39,6 +41,7 @@ public:
   Result<void> begin(const SinkDescription& description) override;
   Result<void> append(const PointBatch& batch) override;
   Result<void> finish() override;
+  std::vector<std::string> findings() const override;
 
 private:
   struct State;

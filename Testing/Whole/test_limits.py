@@ -148,6 +148,22 @@ class Counts(LimitsTest):
             self.assertEqual(outcome.status, status, outcome)
         self.assertIn("more than 1000 columns", outcome.err)
 
+    def test_a_class_above_255(self):
+        (self.folder / "c.csv").write_text("x,y,z,classification\n0,0,0,2\n1,1,1,300\n")
+        store = self.folder / "c.pfront"
+        build = ("build", self.folder / "c.csv", "-o", store, "--precision", "1", "--assume-crs",
+                 "EPSG:25832")
+        self.assertIn("one byte", self.refuse(1, *build, "--layers", "class").err)
+        self.assertIn("'classification' is uint16", self.succeed(*build).err)
+        refused = self.refuse(1, "export", store, "-o", self.folder / "c2.csv", "--classes", "2")
+        self.assertIn("uint16", refused.err)
+        for name in ("c.las", "c.copc.laz"):
+            exported = self.succeed("export", store, "-o", self.folder / name)
+            self.assertIn("'classification' has values", exported.err)
+        out = self.folder / "c300.csv"
+        self.succeed("export", store, "-o", out, "--where", "classification == 300")
+        self.assertEqual(len(out.read_text().splitlines()), 2)
+
     def test_a_hundred_and_twenty_highlights(self):
         store, _ = self.cloud("0", "1", "1e-3")
         path = self.folder / "style.json"

@@ -51,6 +51,9 @@ def _column(name, values, count):
     elif column.dtype.kind not in "iuf" or column.dtype.itemsize > 8:
         raise TypeError(f"'{name}' has the type {column.dtype}: a store holds integers and "
                         f"floating numbers of at most 64 bits")
+    if name == "classification" and column.dtype.kind in "iu" and column.ndim == 1 and \
+            column.size and 0 <= column.min() and column.max() <= 255:
+        column = column.astype(numpy.uint8)  # a class is one byte, NumPy's integers have eight
     return numpy.ascontiguousarray(column, column.dtype.newbyteorder("="))
 
 

@@ -140,12 +140,14 @@ std::string COPCWriter::path() const
 
 std::vector<std::string> COPCWriter::findings() const
 {
-  if (!state_->lostSystem)
+  std::vector<std::string> found = state_->plan.findings;
+  if (state_->lostSystem)
   {
-    return {};
+    found.push_back(
+      "The coordinate reference system is known by GeoTIFF keys only, which COPC does "
+      "not have; the file names none (build --assume-crs gives it one).");
   }
-  return { "The coordinate reference system is known by GeoTIFF keys only, which COPC does not "
-           "have; the file names none (build --assume-crs gives it one)." };
+  return found;
 }
 
 Result<void> COPCWriter::begin(const SinkDescription& description)

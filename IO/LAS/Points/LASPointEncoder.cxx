@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <type_traits>
+#include <utility>
 
 namespace pointfront
 {
@@ -26,7 +29,8 @@ Error cannotHold(const Work& work, std::size_t i, const std::string& what)
 {
   return makeError(Error::Kind::BadArgument,
     work.path + ": point " + std::to_string(work.number + i) + " has " + what +
-      ", which LAS point format " + std::to_string(work.plan.layout.pointFormat) + " cannot hold");
+      ", which LAS point format " + std::to_string(work.plan.layout.pointFormat) +
+      " cannot hold; leave that attribute out (--attributes), or write another format");
 }
 
 Result<void> encodePositions(const Work& work, LASTotals& totals)
@@ -130,13 +134,68 @@ Result<void> encodeAngle(const Work& work, const Elements& from, double degrees,
   return {};
 }
 
+/// The values in the type of their field.
+/// Errors  BadArgument: one that the type does not hold, where the ranges did not tell.
+Result<std::vector<std::byte>> converted(
+  const Work& work, const Elements& from, ScalarType type, const Attribute& field)
+{
+  std::vector<std::byte> all(work.count * field.bytes());
+  std::optional<std::size_t> wrong;
+  visitScalar(type,
+    [&](auto source)
+    {
+      visitScalar(field.type,
+        [&](auto target)
+        {
+          using Source = decltype(source);
+          using Target = decltype(target);
+          for (std::size_t i = 0; i < work.count * field.components; ++i)
+          {
+            const std::size_t point = i / field.components;
+            const auto value = loadNumber<Source>(
+              from.first + point * from.stride + (i % field.components) * sizeof(Source));
+            if constexpr (!std::is_floating_point_v<Target>)
+            {
+              // As a double: what is cut off there is out of any field's range.
+              const auto number = static_cast<double>(value);
+              if (!(number >= static_cast<double>(std::numeric_limits<Target>::lowest()) &&
+                    number <= static_cast<double>(std::numeric_limits<Target>::max())))
+              {
+                wrong = wrong ? wrong : point;
+                continue;
+              }
+            }
+            storeNumber(all.data() + i * sizeof(Target), static_cast<Target>(value));
+          }
+        });
+    });
+  if (wrong)
+  {
+    return cannotHold(work, *wrong, "a value of '" + field.name + "'");
+  }
+  return all;
+}
+
 Result<void> encodeColumn(
-  const Work& work, std::size_t c, const LASExport::Origin& origin, std::size_t stride)
+  const Work& work, std::size_t c, LASExport::Origin origin, std::size_t stride)
 {
   const LASField& field = work.plan.layout.fields[c];
   const Attribute& attribute = work.plan.layout.schema[c];
-  const Elements from{ work.batch.columns[origin.column].data() + work.first * stride + origin.byte,
+  Elements from{ work.batch.columns[origin.column].data() + work.first * stride + origin.byte,
     stride };
+  std::vector<std::byte> own;
+  const bool widened = origin.type == ScalarType::UInt8 && attribute.type == ScalarType::UInt16;
+  if (origin.type != attribute.type && !widened)
+  {
+    Result<std::vector<std::byte>> made = converted(work, from, origin.type, attribute);
+    if (!made)
+    {
+      return made.error();
+    }
+    own = std::move(*made);
+    from = { own.data(), attribute.bytes() };
+    origin.type = attribute.type;
+  }
   std::byte* to = work.records + field.offset;
   switch (field.kind)
   {

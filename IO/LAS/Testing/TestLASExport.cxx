@@ -252,6 +252,60 @@ TEST(LASExport, LeavesNothingWhenItIsNotFinished)
   }
 }
 
+/// NumPy's default integers, and numbers of text, are wider than LAS's fields.
+TEST(LASExport, TakesValuesOfAnyTypeThatTheFieldHolds)
+{
+  SinkDescription description = withAttributes({ { "classification", ScalarType::Int64 },
+    { "intensity", ScalarType::Float32 }, { "gps_time", ScalarType::Float32 },
+    { "scan_angle", ScalarType::Float64 }, { "rgb", ScalarType::UInt32, 3 } });
+  description.largest = { 6, 0.9, 1e5, 20, 65535 };
+  description.smallest = { 0, 0, 0, -20, 0 };
+  PointBatch batch = onePoint(description, glm::dvec3(1.0));
+  const std::int64_t label = 6;
+  const float intensity = 0.5f;
+  const float time = 1234.5f;
+  const double angle = -7.0;
+  const std::uint32_t colour[3] = { 1, 40000, 65535 };
+  std::memcpy(batch.columns[0].data(), &label, sizeof label);
+  std::memcpy(batch.columns[1].data(), &intensity, sizeof intensity);
+  std::memcpy(batch.columns[2].data(), &time, sizeof time);
+  std::memcpy(batch.columns[3].data(), &angle, sizeof angle);
+  std::memcpy(batch.columns[4].data(), colour, sizeof colour);
+  const Result<LASExport> plan = LASExport::plan(description, "out.las");
+  ASSERT_TRUE(plan);
+  ASSERT_EQ(plan->findings.size(), 1u);
+  EXPECT_NE(plan->findings[0].find("'intensity'"), std::string::npos) << plan->findings[0];
+  const auto source = written(description, batch, "any-type.las");
+  ASSERT_TRUE(source);
+  const AttributeSchema& schema = source->description().schema;
+  const PointBatch read = readPoints(*source);
+  const auto column = [&](const char* name) { return read.columns[*schema.find(name)].data(); };
+  EXPECT_EQ(column("classification")[0], std::byte{ 6 });
+  EXPECT_EQ(loadNumber<double>(column("gps_time")), 1234.5);
+  EXPECT_EQ(loadNumber<float>(column("scan_angle")), -7.0f);
+  EXPECT_EQ(loadNumber<std::uint16_t>(column("rgb") + 2), 40000);
+  EXPECT_EQ(loadNumber<std::uint16_t>(column("rgb") + 4), 65535);
+  EXPECT_EQ(loadNumber<float>(column("intensity_2")), 0.5f);
+}
+
+TEST(LASExport, SaysWhichFieldDoesNotHoldItsValues)
+{
+  SinkDescription description = withAttributes({ { "classification", ScalarType::UInt16 } });
+  EXPECT_EQ(LASExport::plan(description, "out.las")->findings.size(), 1u) << "nobody knows";
+  description.largest = { 300 };
+  description.smallest = { 0 };
+  EXPECT_EQ(LASExport::plan(description, "out.las")->findings.size(), 1u);
+  description.largest = { 255 };
+  EXPECT_TRUE(LASExport::plan(description, "out.las")->findings.empty());
+  // Ranges that do not hold: an error, and no other class.
+  PointBatch batch = onePoint(description, glm::dvec3(1.0));
+  const std::uint16_t label = 300;
+  std::memcpy(batch.columns[0].data(), &label, sizeof label);
+  Error error;
+  EXPECT_FALSE(written(description, batch, "wrong-range.las", &error));
+  EXPECT_NE(error.what.find("classification"), std::string::npos) << error.what;
+}
+
 /// Files of this process may not grow beyond some bytes: as good as a full disk.
 class FileSizeLimit
 {

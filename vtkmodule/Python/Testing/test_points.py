@@ -47,6 +47,27 @@ class Points(unittest.TestCase):
             pointfront.build(CLOUD, cls.stores[refinement], preview=False, node_points=1000,
                              refinement=refinement)
 
+    def test_classes_of_any_integers_are_classes(self):
+        xyz = numpy.arange(12.0).reshape(4, 3)
+        target = self.folder / "classes.pfront"
+        pointfront.build({"position": xyz, "classification": numpy.array([2, 6, 2, 255])}, target,
+                         preview=False, precision=1)
+        with pointfront.open(target) as cloud:
+            self.assertEqual(len(cloud.points(classes=2)["id"]), 2)
+        pointfront.build({"position": xyz, "classification": numpy.array([2, 6, 2, 256])}, target,
+                         preview=False, precision=1, overwrite=True)
+        with pointfront.open(target) as cloud:
+            with self.assertRaisesRegex(pointfront.PointFrontError, "int64.*one byte"):
+                cloud.points(classes=2)
+            self.assertEqual(len(cloud.points(where="classification == 256")["id"]), 1)
+
+    def test_an_array_without_a_name_is_refused(self):
+        target = self.folder / "nameless.pfront"
+        arrays = {"position": numpy.arange(9.0).reshape(3, 3), "": numpy.arange(3)}
+        with self.assertRaisesRegex(ValueError, "empty name"):
+            pointfront.build(arrays, target, preview=False)
+        self.assertFalse(target.exists())
+
     def test_colours_are_what_is_stored(self):
         random = numpy.random.default_rng(1)
         wide = random.integers(0, 65536, (1000, 3), numpy.uint16)

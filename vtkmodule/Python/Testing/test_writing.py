@@ -134,13 +134,6 @@ class Writing(unittest.TestCase):
         with pointfront.open(self.folder / "whole.pfront") as cloud:
             self.assertEqual(sorted(cloud.points()["a"]), [1, 2, 3])
 
-    def test_an_array_without_a_name_is_refused(self):
-        target = self.folder / "nameless.pfront"
-        arrays = {"position": numpy.arange(9.0).reshape(3, 3), "": numpy.arange(3)}
-        with self.assertRaisesRegex(ValueError, "empty name"):
-            pointfront.build(arrays, target, preview=False)
-        self.assertFalse(target.exists())
-
     def test_numbers_that_cannot_be_meant_are_refused(self):
         xyz = {"position": numpy.arange(9.0).reshape(3, 3)}
         target = self.folder / "none.pfront"

@@ -32,8 +32,18 @@ Result<void> StoreBuild::chooseLayers()
   if (!usable && options_.layering == Layering::ObjectClass)
   {
     return makeError(Error::Kind::BadArgument,
-      "layers by class need the attribute 'classification' of one byte, which is not among those "
-      "to store; build without layers, or name it among the attributes");
+      column ? "layers by class need a 'classification' of one byte (0 to 255), and this one is " +
+          std::string(nameOf(common_.schema[*column].type)) +
+          "; build without layers, or with classes that a byte holds"
+             : "layers by class need the attribute 'classification', which is not among those to "
+               "store; build without layers, or name it among the attributes");
+  }
+  if (column && !usable)
+  {
+    report_.warnings.push_back("'classification' is " +
+      std::string(nameOf(common_.schema[*column].type)) +
+      ": classes are of one byte (0 to 255), so it is an attribute like any other, and no points "
+      "are chosen by class.");
   }
   if (usable && options_.layering != Layering::None)
   {

@@ -75,11 +75,14 @@ Result<SinkDescription> surveyed(
   for (const ColumnRange& range : ranges)
   {
     double largest = 0.0;
+    double smallest = 0.0;
     for (const auto& ends : range.components)
     {
       largest = std::max(largest, ends[1]);
+      smallest = std::min(smallest, ends[0]);
     }
     told.largest.push_back(largest);
+    told.smallest.push_back(smallest);
   }
   std::vector<std::unique_ptr<PointSource>> alone;
   alone.push_back(std::make_unique<DescribedSource>(source, std::move(about)));

@@ -34,12 +34,15 @@ SinkDescription sinkDescription(const StoreDescription& store, const PointQuery&
     // Whether colours are of 8 bits in 16 is a guess anyway, which EightBitColourSink checks.
     const bool guess = store.schema[c].name == "rgb";
     double largest = 0.0;
+    double smallest = 0.0;
     for (const std::array<double, 2>& component :
       (guess ? store.ranges[c] : certainRange(store, c)).components)
     {
       largest = std::max(largest, component[1]);
+      smallest = std::min(smallest, component[0]);
     }
     sink.largest.push_back(largest);
+    sink.smallest.push_back(smallest);
   }
   sink.crsWkt = store.crsWkt;
   sink.metadata = store.metadata;

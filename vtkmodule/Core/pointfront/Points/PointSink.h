@@ -28,6 +28,7 @@ struct SinkDescription
   /// Largest value of any component of each column, as stored; empty if not known. Lets LAS choose
   /// a point format that holds them (classes above 31, more than 7 returns).
   std::vector<double> largest;
+  std::vector<double> smallest; ///< the same of the smallest values
   std::string crsWkt;
   std::vector<MetadataRecord> metadata; ///< as the source gave it (LAS: VLRs of the CRS ...)
 };

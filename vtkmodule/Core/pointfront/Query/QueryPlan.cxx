@@ -22,10 +22,16 @@ Result<AttributeCondition> classCondition(
   const StoreDescription& store, const std::vector<std::uint8_t>& classes)
 {
   const std::optional<std::size_t> column = store.schema.find("classification");
-  if (!column || store.schema[*column].bytes() != 1)
+  if (!column)
   {
     return makeError(Error::Kind::BadArgument,
       store.path + ": the store has no classification of one byte to choose classes by");
+  }
+  if (store.schema[*column].bytes() != 1)
+  {
+    return makeError(Error::Kind::BadArgument,
+      store.path + ": 'classification' is " + std::string(nameOf(store.schema[*column].type)) +
+        ", and classes are of one byte (0 to 255); choose by a condition ('classification == 2')");
   }
   const Attribute& attribute = store.schema[*column];
   AttributeCondition condition;

@@ -13,7 +13,7 @@ namespace
 {
 using Json = nlohmann::json;
 using OrderedJson = nlohmann::ordered_json;
-constexpr int version = 1;
+constexpr int version = 2;
 
 /// Infinite numbers are not JSON.
 OrderedJson numberJson(double number)
@@ -160,7 +160,8 @@ OrderedJson MosaicTiles::json() const
   object["inputs"] = OrderedJson::array();
   for (const SettledInput& input : inputs)
   {
-    object["inputs"].push_back({ { "bounds", boxJson(input.bounds) }, { "deep", input.deep } });
+    object["inputs"].push_back({ { "bounds", boxJson(input.bounds) }, { "deep", input.deep },
+      { "own_colour", input.ownColour } });
   }
   object["skipped"] = skippedJsonOf(skipped);
   object["tiles"] = tilesJson(tiles);
@@ -179,7 +180,7 @@ MosaicTiles MosaicTiles::of(const Json& json)
   tiles.rejected = json.at("points_rejected").get<std::map<std::string, std::uint64_t>>();
   for (const Json& one : json.at("inputs"))
   {
-    tiles.inputs.push_back({ boxOf(one.at("bounds")), one.at("deep") });
+    tiles.inputs.push_back({ boxOf(one.at("bounds")), one.at("deep"), one.at("own_colour") });
   }
   tiles.skipped = skippedOf(json.at("skipped"));
   tiles.tiles = tilesOf(json.at("tiles"));
@@ -196,6 +197,7 @@ OrderedJson SurveyRecord::json() const
   object["points_rejected"] = survey.rejected;
   object["classes"] = survey.classes.to_string();
   object["largest_colour"] = survey.largestColour;
+  object["own_colour"] = ownColour;
   object["tiles"] = tilesJson(survey.tiles);
   object["chunks"] = OrderedJson::array();
   for (const SurveyedChunk& chunk : survey.chunks)
@@ -214,6 +216,7 @@ SurveyRecord SurveyRecord::of(const Json& json)
   record.survey.rejected = json.at("points_rejected").get<std::map<std::string, std::uint64_t>>();
   record.survey.classes = std::bitset<256>(json.at("classes").get<std::string>());
   record.survey.largestColour = json.at("largest_colour");
+  record.ownColour = json.at("own_colour");
   record.survey.tiles = tilesOf(json.at("tiles"));
   for (const Json& one : json.at("chunks"))
   {

@@ -49,6 +49,7 @@ struct SettledInput
 {
   Bounds bounds;
   bool deep = false; ///< has colours of more than 8 bits
+  std::uint16_t ownColour = 0; ///< largest of its own, where images give others
 };
 
 /// work/tiles.json: what all tiles have in common, and which there are.
@@ -75,6 +76,7 @@ struct SurveyRecord
   std::string key; ///< hash: the input and how it was read
   InputSurvey survey;
   std::uint64_t keptBytes = 0; ///< points of the input, for the tiles
+  std::uint16_t ownColour = 0; ///< largest 16-bit colour before images give others
 
   nlohmann::ordered_json json() const;
   static SurveyRecord of(const nlohmann::json& json);

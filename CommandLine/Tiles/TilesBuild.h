@@ -96,7 +96,7 @@ private:
   std::shared_ptr<PointKeeper> keeperOf(std::size_t input, const PointSource& source) const;
   Result<SurveyRecord> readSurvey(std::size_t input, const ProgressFunction& progress) const;
   Result<void> surveyNow(std::size_t input, const ProgressFunction& progress) const;
-  Result<void> addToTiles(std::size_t input, const InputSurvey& survey, MosaicTiles& tiles,
+  Result<void> addToTiles(std::size_t input, const SurveyRecord& record, MosaicTiles& tiles,
     std::vector<Error>& faults) const;
   // One tile.
   Result<std::vector<std::pair<std::size_t, SurveyRecord>>> surveysIn(const Bounds& box) const;

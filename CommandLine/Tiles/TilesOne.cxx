@@ -4,6 +4,7 @@
 
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Mosaic/EmptySource.h"
+#include "pointfront/Mosaic/KnownColours.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -164,6 +165,7 @@ Result<TileInputs> TilesBuild::inputsIn(const Bounds& box) const
         }
       }
       *source = fromKept(std::move(*source), keptPath(i), next->second.key);
+      *source = std::make_unique<KnownColours>(std::move(*source), tiles_->inputs[i].ownColour);
       ++next;
     }
     inputs.sources.push_back(
@@ -205,7 +207,8 @@ Result<std::string> TilesBuild::tileKey(const TileIndex& tile, double margin) co
         hashes.push_back(chunk.hash);
       }
     }
-    facts.push_back({ plan_->inputs[input].kind, tiles_->inputs[input].deep, hashes });
+    const SettledInput& settled = tiles_->inputs[input];
+    facts.push_back({ plan_->inputs[input].kind, settled.deep, settled.ownColour > 255, hashes });
   }
   const std::string text = facts.dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return hex(hashOfText(text));

@@ -3,6 +3,7 @@
 #include "TilesBuild.h"
 
 #include "pointfront/Mosaic/EmptySource.h"
+#include "pointfront/Mosaic/KnownColours.h"
 #include "pointfront/Neighbourhood/PointTiles.h"
 
 namespace pointfront
@@ -103,6 +104,7 @@ Result<SurveyRecord> TilesBuild::readSurvey(
   PointSources sources;
   std::size_t place = 0;
   std::shared_ptr<PointKeeper> keeper;
+  const auto largest = std::make_shared<std::atomic<std::uint16_t>>(0);
   for (std::size_t i = 0; i < plan_->inputs.size(); ++i)
   {
     if (i != input && !plan_->inputs[i].representative)
@@ -121,7 +123,8 @@ Result<SurveyRecord> TilesBuild::readSurvey(
     }
     place = sources.size();
     keeper = keeperOf(input, **source);
-    sources.push_back(keeper ? keeping(std::move(*source), keeper) : std::move(*source));
+    *source = keeper ? keeping(std::move(*source), keeper) : std::move(*source);
+    sources.push_back(std::make_unique<KnownColours>(std::move(*source), largest));
   }
   const Result<AttributePasses> passes = this->passes();
   if (!passes)
@@ -141,7 +144,7 @@ Result<SurveyRecord> TilesBuild::readSurvey(
   {
     return survey.error();
   }
-  SurveyRecord record{ surveyKey(input), std::move(*survey) };
+  SurveyRecord record{ surveyKey(input), std::move(*survey), 0, *largest };
   if (keeper)
   {
     const Result<std::uint64_t> bytes = keeper->finish(record.key);
@@ -182,9 +185,10 @@ Result<bool> TilesBuild::survey(std::size_t input)
 }
 
 /// One input adds its part to what all tiles have in common.
-Result<void> TilesBuild::addToTiles(std::size_t input, const InputSurvey& survey,
+Result<void> TilesBuild::addToTiles(std::size_t input, const SurveyRecord& record,
   MosaicTiles& tiles, std::vector<Error>& faults) const
 {
+  const InputSurvey& survey = record.survey;
   std::uint64_t rejected = 0;
   for (const auto& [reason, points] : survey.rejected)
   {
@@ -205,7 +209,7 @@ Result<void> TilesBuild::addToTiles(std::size_t input, const InputSurvey& survey
   const bool byFile = request_.options.colourDepth == ColourDepth::ByFile;
   const bool deep = survey.largestColour > 255;
   tiles.wideColours = tiles.wideColours || (byFile && deep);
-  tiles.inputs.push_back({ survey.bounds(), byFile && deep });
+  tiles.inputs.push_back({ survey.bounds(), byFile && deep, record.ownColour });
   for (const auto& [tile, points] : survey.tiles)
   {
     tiles.tiles[tile] += points;
@@ -233,7 +237,7 @@ Result<bool> TilesBuild::settle()
         plan_->inputs[i].path + ": has not been surveyed; run --only survey:" + std::to_string(i) +
           " first");
     }
-    if (Result<void> added = addToTiles(i, record->survey, tiles, faults); !added)
+    if (Result<void> added = addToTiles(i, *record, tiles, faults); !added)
     {
       return added.error();
     }

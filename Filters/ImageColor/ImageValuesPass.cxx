@@ -157,7 +157,7 @@ Result<PointSources> ImageValuesPass::apply(
     {
       const RasterMosaic& mosaic = images_->mosaics[i];
       Result<RasterColumn> column =
-        RasterColumn::make(inputs_[i].attribute, mosaic.files(), *source);
+        RasterColumn::make(inputs_[i].attribute, mosaic.files(), *source, resources);
       if (!column)
       {
         return column.error();

@@ -40,7 +40,7 @@ public:
   std::uint64_t heldBytes(const PassResources& resources) const override;
   std::vector<std::string> findings() const override;
   std::vector<std::string> filesRead() const override;
-  bool readsPoints() const override { return false; } ///< but for scattered clouds
+  bool readsPoints() const override { return false; } ///< but for scattered clouds and colours
   /// Tiles decoded for the sources of the last apply() so far, those decoded again included.
   std::uint64_t tilesRead() const;
 

@@ -1,5 +1,7 @@
 #include "RasterColumn.h"
 
+#include "OwnColours.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -103,35 +105,10 @@ ScalarType typeOfNew(const std::string& name, ScalarType ofImages)
     known.begin(), known.end(), [&](const auto& entry) { return name == entry.first; });
   return found == known.end() ? ofImages : found->second;
 }
-
-/// Do the 16-bit colours of a source hold 8 bits? Asked of up to 16 chunks spread over it: a cloud
-/// of 16 bits has a colour above 255 in the first of them.
-Result<bool> holdsEightBits(const PointSource& source, std::size_t column)
-{
-  constexpr std::uint64_t most = 16;
-  const std::uint64_t chunks = source.chunkCount();
-  PointBatch batch;
-  for (std::uint64_t i = 0; i < std::min(most, chunks); ++i)
-  {
-    if (Result<void> done = source.read(i * chunks / std::min(most, chunks), batch); !done)
-    {
-      return done.error();
-    }
-    const std::vector<std::byte>& bytes = batch.columns[column];
-    for (std::size_t at = 0; at + 2 <= bytes.size(); at += 2)
-    {
-      if (load<std::uint16_t>(bytes.data() + at) > 255)
-      {
-        return false;
-      }
-    }
-  }
-  return true;
-}
 } // namespace
 
-Result<RasterColumn> RasterColumn::make(
-  const std::string& name, const std::vector<RasterFile>& files, const PointSource& source)
+Result<RasterColumn> RasterColumn::make(const std::string& name,
+  const std::vector<RasterFile>& files, const PointSource& source, const PassResources& resources)
 {
   RasterColumn column;
   column.colour_ = files.front().use == RasterUse::Colour;
@@ -139,9 +116,10 @@ Result<RasterColumn> RasterColumn::make(
   wanted.name = name;
   if (column.colour_)
   {
-    const bool wide = std::any_of(
+    const auto wide = std::find_if(
       files.begin(), files.end(), [](const RasterFile& file) { return file.hasWideColours(); });
-    wanted.type = wide ? ScalarType::UInt16 : ScalarType::UInt8;
+    wanted.type = wide != files.end() ? ScalarType::UInt16 : ScalarType::UInt8;
+    column.wideImage_ = wide != files.end() ? wide->path : std::string();
     wanted.components = 3;
   }
   else
@@ -166,16 +144,29 @@ Result<RasterColumn> RasterColumn::make(
   }
   column.old_ = true;
   column.attribute_ = own;
-  if (column.colour_ && own.type == ScalarType::UInt16)
+  if (column.colour_)
   {
-    Result<bool> eight = holdsEightBits(source, *present);
+    const Result<bool> eight = own.type == ScalarType::UInt16
+      ? haveEightBits(source, *present, resources)
+      : Result<bool>(false);
     if (!eight)
     {
       return eight.error();
     }
     column.eightBitsInSixteen_ = *eight && wanted.type == ScalarType::UInt8;
+    column.widens_ = *eight && wanted.type == ScalarType::UInt16;
+    column.wideImage_ = column.widens_ ? column.wideImage_ : std::string();
   }
   return column;
+}
+
+void RasterColumn::widen(std::vector<std::byte>& values) const
+{
+  for (std::size_t at = 0; widens_ && at + 2 <= values.size(); at += 2)
+  {
+    const auto wide = static_cast<std::uint16_t>(257u * load<std::uint16_t>(values.data() + at));
+    std::memcpy(values.data() + at, &wide, sizeof wide);
+  }
 }
 
 RasterColumn::Outcome RasterColumn::store(

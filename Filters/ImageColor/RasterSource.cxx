@@ -18,6 +18,14 @@ RasterSource::RasterSource(std::unique_ptr<PointSource> original,
   , counted_(original_->chunkCount())
 {
   description_.schema = std::move(schema);
+  description_.largestColour.reset(); // images may have larger ones
+  for (const Input& input : inputs_)
+  {
+    if (!input.column.wideImage().empty())
+    {
+      description_.colourImage = input.column.wideImage();
+    }
+  }
 }
 
 void RasterSource::use(std::shared_ptr<const SortedRasterValues> sorted, std::size_t number)
@@ -37,6 +45,10 @@ Result<void> RasterSource::read(std::uint64_t chunk, PointBatch& batch) const
   for (std::size_t c = own; c < batch.columns.size(); ++c)
   {
     batch.columns[c].assign(batch.size() * description_.schema[c].bytes(), std::byte(0));
+  }
+  for (const Input& input : inputs_)
+  {
+    input.column.widen(batch.columns[input.target]);
   }
   const bool count = !counted_[chunk].exchange(true);
   if (sorted_)

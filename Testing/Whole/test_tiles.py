@@ -7,9 +7,11 @@ import pathlib
 import random
 import shutil
 import signal
+import struct
 import subprocess
 import time
 import unittest
+import zlib
 
 from tool import SLOWNESS, TOOL, WORK, ToolTest, pointfront, write_las
 
@@ -56,6 +58,20 @@ def make_survey(test, points, folder):
             f"{61 + draw.random():.3f}" for _ in range(points // 20)]
     rows.append(f"{west + 1:.3f} {north + 140:.3f} 64.000")
     (folder / "bare.xyz").write_text("\n".join(rows))
+
+
+def write_image(path, bits, west, north, side=50):
+    """A PNG of one grey, a metre a pixel, and its world file."""
+    def chunk(kind, data):
+        checked = kind + data
+        return struct.pack(">I", len(data)) + checked + struct.pack(">I", zlib.crc32(checked))
+    grey = struct.pack(">H", 40000) if bits == 16 else b"\xc8"
+    row = b"\0" + side * 3 * grey
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     chunk(b"IHDR", struct.pack(">2I5B", side, side, bits, 2, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(side * row)) + chunk(b"IEND", b""))
+    path.with_suffix(".pgw").write_text(f"1\n0\n0\n-1\n{west + 0.5}\n{north - 0.5}\n")
+    return path
 
 
 def rows_of(test, cloud):
@@ -111,6 +127,22 @@ class Tiles(ToolTest):
         self.assertEqual(len(expected), len(found))
         self.assertFalse(differ[:3], f"{len(differ)} points differ: {names}")
         return names
+
+    def same_colours(self, bits):
+        """An image over files of 16 bits and one of 8: parts of each keep their own colours."""
+        land = survey(self, FEWER)
+        west, south, *_ = self.succeed("info", land / "small.las", "--json").json["bounds"]
+        image = write_image(self.folder / "image.png", bits, west - 20, south + 40)
+        self.same_values(land, "--color-from", image)
+        names, rows = rows_of(self, self.folder / "one.pfront")
+        found = [int(row.split(",")[names.index("red")]) for row in rows]
+        self.assertGreater(found.count(40000 if bits == 16 else 51400), 100)
+
+    def test_have_the_colours_of_one_store_with_images_of_8_bits(self):
+        self.same_colours(8)
+
+    def test_have_the_colours_of_one_store_with_images_of_16_bits(self):
+        self.same_colours(16)
 
     def test_have_the_values_of_one_store(self):
         names = self.same_values(survey(self), *VALUES)

@@ -56,6 +56,7 @@ ColouredCloud coloured(std::unique_ptr<PointSource> source, std::vector<RasterIn
   }
   const PointSource& ready = *result->front();
   outcome.schema = ready.description().schema;
+  outcome.colourImage = ready.description().colourImage;
   for (std::uint64_t chunk = 0; chunk < ready.chunkCount(); ++chunk)
   {
     PointBatch batch;

@@ -17,6 +17,7 @@ struct ColouredCloud
   PointBatch points;
   AttributeSchema schema;
   std::string error;
+  std::string colourImage; ///< SourceDescription::colourImage
   std::string findings; ///< one a line
 
   /// All components of an attribute, point after point.

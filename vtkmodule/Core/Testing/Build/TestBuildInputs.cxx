@@ -313,6 +313,13 @@ TEST(BuildColours, AreAsDeepAsTheUserSays)
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().what.find("'wide' has a colour of 65535"), std::string::npos);
   sources.pop_back();
+  auto painted = coloured("painted", 2.0, { 3, 256, 65535 });
+  painted->editDescription().colourImage = "ortho.tif";
+  sources.push_back(std::move(painted));
+  const auto blamed = buildStore(sources, options);
+  ASSERT_FALSE(blamed);
+  EXPECT_NE(blamed.error().what.find("'ortho.tif' has a colour of 65535"), std::string::npos);
+  sources.pop_back();
   EXPECT_TRUE(buildStore(sources, options));
   std::filesystem::remove_all(folder);
 }

@@ -21,8 +21,10 @@ Result<StoredColours> storedColours(const std::vector<std::unique_ptr<PointSourc
   {
     if (depth == ColourDepth::Eight && largest[s] > 255)
     {
+      const SourceDescription& source = sources[s]->description();
       return makeError(Error::Kind::BadArgument,
-        "'" + sources[s]->description().path + "' has a colour of " + std::to_string(largest[s]) +
+        "'" + (source.colourImage.empty() ? source.path : source.colourImage) +
+          "' has a colour of " + std::to_string(largest[s]) +
           ", which is more than 8 bits hold; let the colour depth be 16, or found by file");
     }
   }

@@ -289,7 +289,7 @@ void PointKeeper::write(std::uint64_t offset, const std::byte* data, std::size_t
 
 void PointKeeper::add(std::uint64_t chunk, const PointBatch& batch)
 {
-  if (fault_ != 0)
+  if (fault_ != 0 || blocks_[chunk].bytes > 0) // passes may read a chunk before the survey does
   {
     return;
   }

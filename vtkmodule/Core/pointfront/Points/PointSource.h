@@ -63,6 +63,10 @@ struct SourceDescription
   /// 16-bit colours have 16 bits, however small the largest value is, because the writer of the
   /// store decided so.
   bool deepColours = false;
+  /// Largest value of its 16-bit colours ("rgb"), if whoever opened the source knows it.
+  std::optional<std::uint16_t> largestColour;
+  /// The image that its colours have 16 bits from, if its own points have none that need them.
+  std::string colourImage;
 
   /// The scanner's place for a chunk; none if it is not known.
   const glm::dvec3* scanner(std::uint64_t chunk) const

@@ -18,8 +18,9 @@ constexpr std::size_t flushBytes = 1 << 20;
 /// Columns are separated by blanks or commas, so names have none.
 std::string plainName(std::string name)
 {
-  std::replace_if(
-    name.begin(), name.end(), [](char c) { return c == ' ' || c == ',' || c == '"'; }, '_');
+  const auto ends = [](char c)
+  { return c == ' ' || c == ',' || c == '"' || (c >= 0 && c < ' ') || c == 0x7f; };
+  std::replace_if(name.begin(), name.end(), ends, '_');
   return name;
 }
 
@@ -35,11 +36,14 @@ std::string columnName(const Attribute& attribute, const std::string& name, std:
   return attribute.components == 1 ? name : name + "[" + std::to_string(component) + "]";
 }
 
-bool isScaledInteger(const Attribute& attribute)
+bool isScaled(const Attribute& attribute)
 {
-  const bool floating =
-    attribute.type == ScalarType::Float32 || attribute.type == ScalarType::Float64;
-  return !floating && (attribute.scale != 1.0 || attribute.offset != 0.0);
+  return attribute.scale != 1.0 || attribute.offset != 0.0;
+}
+
+bool isFloat(const Attribute& attribute)
+{
+  return attribute.type == ScalarType::Float32 || attribute.type == ScalarType::Float64;
 }
 } // namespace
 
@@ -104,7 +108,7 @@ Result<void> XYZWriter::begin(const SinkDescription& description)
   for (const Attribute& attribute : description.schema)
   {
     const std::string name = names.add(plainName(attribute.name));
-    const bool fixed = isScaledInteger(attribute);
+    const bool fixed = isScaled(attribute) && !isFloat(attribute);
     state_->columns.push_back(
       { attribute, fixed, fixed ? decimalsOf(attribute.scale, attribute.offset) : 0 });
     for (std::size_t k = 0; k < attribute.components; ++k)
@@ -135,6 +139,11 @@ void XYZWriter::State::appendPoint(const PointBatch& batch, std::size_t point)
       {
         const double value = scalarValue(attribute.type, from);
         appendFixed(text, attribute.offset + attribute.scale * value, columns[c].decimals);
+      }
+      else if (isScaled(attribute))
+      {
+        const double value = attribute.offset + attribute.scale * scalarValue(attribute.type, from);
+        appendScalar(text, ScalarType::Float64, reinterpret_cast<const std::byte*>(&value));
       }
       else
       {

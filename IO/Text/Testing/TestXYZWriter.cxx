@@ -77,6 +77,23 @@ TEST(XYZWriter, NamesItsColumnsAndWritesTheGridsDigits)
   fs::remove(path);
 }
 
+TEST(XYZWriter, WritesWhatScaledNumbersMean)
+{
+  const std::string path = freshPath("scaled.csv");
+  SinkDescription description;
+  description.grid = { glm::dvec3(1.0), glm::dvec3(0.0) };
+  description.schema.add({ "heat\nmap", ScalarType::Float32, 1, 0.5, 100.0 });
+  PointBatch batch;
+  batch.resize(2, description.schema);
+  const float stored[2] = { 0.0f, 3.0f };
+  std::memcpy(batch.columns[0].data(), stored, sizeof stored);
+  XYZWriter writer(path, XYZWriter::Style::CSV);
+  ASSERT_TRUE(writer.begin(description));
+  ASSERT_TRUE(writer.append(batch));
+  ASSERT_TRUE(writer.finish());
+  EXPECT_EQ(contents(path), "x,y,z,heat_map\n0,0,0,100\n0,0,0,101.5\n");
+}
+
 TEST(XYZWriter, LeavesNothingWhenItIsNotFinished)
 {
   const std::string path = freshPath("unfinished.xyz");

@@ -113,7 +113,12 @@ bool fits(const SinkDescription& description, std::size_t column, const Attribut
   {
     return false;
   }
-  const bool exact = field.type == ScalarType::Float64 && sizeOf(own.type) <= 4;
+  constexpr double exactInteger = 9007199254740992.0; // 2^53
+  const bool known = column < description.largest.size() && column < description.smallest.size();
+  const bool exact = field.type == ScalarType::Float64 &&
+    (sizeOf(own.type) <= 4 ||
+      (known && description.largest[column] <= exactInteger &&
+        description.smallest[column] >= -exactInteger));
   const bool angle = field.name == "scan_angle";
   return own.type == field.type || exact || angle ||
     (own.type == ScalarType::UInt8 && field.type == ScalarType::UInt16) ||

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <limits>
 #include <sys/resource.h>
+#include <utility>
 
 namespace pointfront::test
 {
@@ -286,6 +287,17 @@ TEST(LASExport, TakesValuesOfAnyTypeThatTheFieldHolds)
   EXPECT_EQ(loadNumber<std::uint16_t>(column("rgb") + 2), 40000);
   EXPECT_EQ(loadNumber<std::uint16_t>(column("rgb") + 4), 65535);
   EXPECT_EQ(loadNumber<float>(column("intensity_2")), 0.5f);
+}
+
+TEST(LASExport, TakesTimesOf64BitIntegersThatDoublesHold)
+{
+  SinkDescription description = withAttributes({ { "gps_time", ScalarType::Int64 } });
+  description.smallest = { 0 };
+  for (const auto& [largest, findings] : { std::pair(1e15, 0u), std::pair(1e18, 1u) })
+  {
+    description.largest = { largest };
+    EXPECT_EQ(LASExport::plan(description, "out.las")->findings.size(), findings) << largest;
+  }
 }
 
 TEST(LASExport, SaysWhichFieldDoesNotHoldItsValues)

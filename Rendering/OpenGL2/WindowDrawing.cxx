@@ -114,12 +114,30 @@ void WindowDrawing::release()
   picture_.release(window_);
   splats_.release(window_);
   selection_.release(window_);
-  for (auto& [view, timer] : timers_)
+  for (auto& [view, own] : timers_)
   {
-    timer.release();
+    own.timer.release();
   }
   timers_.clear();
   window_->PopContext();
+}
+
+/// Drops those of actors that are gone: another one may have the same address.
+FrameTimer& WindowDrawing::timerOf(vtkRenderer* renderer, vtkActor* actor)
+{
+  for (auto own = timers_.begin(); own != timers_.end();)
+  {
+    if (own->second.actor)
+    {
+      ++own;
+      continue;
+    }
+    own->second.timer.release();
+    own = timers_.erase(own);
+  }
+  ActorTimer& own = timers_[{ renderer, actor }];
+  own.actor = actor;
+  return own.timer;
 }
 
 void WindowDrawing::leaveScreen()

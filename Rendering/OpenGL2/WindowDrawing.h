@@ -11,6 +11,7 @@
 
 #include "pointfront/Plan/FramePlan.h"
 
+#include <vtkActor.h>
 #include <vtkNew.h>
 #include <vtkOpenGLRenderTimer.h>
 #include <vtkSmartPointer.h>
@@ -24,7 +25,6 @@
 #include <utility>
 #include <vector>
 
-class vtkActor;
 class vtkOpenGLRenderWindow;
 class vtkRenderer;
 
@@ -104,10 +104,8 @@ public:
   void leaveScreen();
 
   GpuPool& pool() { return pool_; }
-  FrameTimer& timerOf(vtkRenderer* renderer, vtkActor* actor)
-  {
-    return timers_[{ renderer, actor }];
-  }
+  /// The context is current.
+  FrameTimer& timerOf(vtkRenderer* renderer, vtkActor* actor);
 
 private:
   struct StyleGroup
@@ -136,7 +134,12 @@ private:
   SplatPicture selection_; ///< while a view refines
   SplatPicture* drawn_ = &splats_;
   bool refines_ = false; ///< the last frame was of a refining view
-  std::map<std::pair<vtkRenderer*, vtkActor*>, FrameTimer> timers_;
+  struct ActorTimer
+  {
+    vtkWeakPointer<vtkActor> actor;
+    FrameTimer timer;
+  };
+  std::map<std::pair<vtkRenderer*, vtkActor*>, ActorTimer> timers_;
   GpuPool::DrawList order_; ///< items of the plan, near to far
   GpuPool::DrawList wanted_; ///< these, then stand-ins of nodes that the plan has no items of
   std::vector<const ResolvedStyle*> styles_; ///< styles of the items of order_

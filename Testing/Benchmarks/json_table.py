@@ -6,7 +6,8 @@
 
 COMMAND is one of bash. `{words}` in it becomes the WORDS of a row, `{json}` a file for what it
 says; without `{json}` the command prints it. FIELD is `name.name/DIVISOR:FORMAT`, for example
-`frame_ms.p50:.0f`, `peak_rss_bytes/1048576:,.0f` or `benchmarks.0.p50_ms` (of a list's first).
+`frame_ms.p50:.0f`, `peak_rss_bytes/1048576:,.0f` or `benchmarks.0.p50_ms` (of a list's first). A
+DIVISOR is a number or another name; there may be several: `points/seconds/1e6:.1f`.
 With --runs all rows run N times in turn, and a cell is the median.
 """
 
@@ -19,7 +20,8 @@ import subprocess
 import sys
 import tempfile
 
-FIELD = re.compile(r"(?P<path>[\w.]+)(?:/(?P<divisor>[\d.e]+))?(?::(?P<format>.+))?$")
+FIELD = re.compile(r"(?P<path>[\w.]+)(?P<divisors>(?:/[\w.]+)*)(?::(?P<format>.+))?$")
+NUMBER = re.compile(r"[\d.]+(?:e\d+)?")
 
 
 def told_by(command, words):
@@ -34,11 +36,18 @@ def told_by(command, words):
         return json.loads(file.read_text() if file.exists() else done.stdout)
 
 
-def number_of(told, field):
+def value_at(told, path):
     value = told
-    for name in field["path"].split("."):
+    for name in path.split("."):
         value = value[int(name) if isinstance(value, list) else name]
-    return value / float(field["divisor"] or 1)
+    return value
+
+
+def number_of(told, field):
+    value = value_at(told, field["path"])
+    for divisor in field["divisors"].split("/")[1:]:
+        value /= float(divisor) if NUMBER.fullmatch(divisor) else value_at(told, divisor)
+    return value
 
 
 def main():

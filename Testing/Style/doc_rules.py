@@ -54,7 +54,7 @@ def anchors(files):
 
 # Pages whose tables of numbers Testing/Benchmarks/tables makes.
 MEASURED = ("README.md", "docs/tradeoffs.md", "docs/papers.md", "docs/promise.md")
-COMMAND = re.compile(r"<!-- table(?: \d+)?(?: by hand)?: (.+) -->")
+COMMAND = re.compile(r"<!-- table(?: \d+)?: (.+) -->")
 CALLED = re.compile(r"Testing/Benchmarks/(\w+(?:\.py)?)|\bpointfront(\w+)Benchmark\b")
 
 

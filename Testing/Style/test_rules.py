@@ -220,14 +220,16 @@ class RulesTest(unittest.TestCase):
             "README.md": "| what | how |\n| --- | --- |\n| reads | LAS 1.4 |\n\n"
             + rows + "\n" + begin.format("there.py") + rows + end + begin.format("gone.py") + rows,
             "docs/tradeoffs.md":
-                "<!-- table 2 by hand: pointfrontRasterBenchmark -->\n" + rows + end
-                + "<!-- table: pointfrontGoneBenchmark -->\n" + rows + end,
+                "<!-- table 2: pointfrontRasterBenchmark -->\n" + rows + end
+                + "<!-- table: pointfrontGoneBenchmark -->\n" + rows + end
+                + "<!-- table by hand: pointfrontRasterBenchmark -->\n" + rows + end,
             "docs/other.md": rows,
             "Testing/Benchmarks/there.py": "",
             "Testing/Benchmarks/raster.cxx": "",
         }
         self.assertEqual(self.faults("TableCommands", tree), [
-            ("README.md", 5), ("README.md", 14), ("README.md", 15), ("docs/tradeoffs.md", 6)])
+            ("README.md", 5), ("README.md", 14), ("README.md", 15), ("docs/tradeoffs.md", 6),
+            ("docs/tradeoffs.md", 12)])
 
     def test_old_tables(self):
         rows, end = "| points | ms |\n| --- | --- |\n| 1 M | 2.5 |\n", "<!-- end of table -->\n"

@@ -30,6 +30,7 @@ server (xvfb-run -a).
 
 import argparse
 import collections
+import concurrent.futures
 import functools
 import hashlib
 import json
@@ -45,6 +46,7 @@ PEERS = {"vtk-points": ("points", "1", "vtkPolyDataMapper, {} px"),
          "vtk-discs": ("discs", "0.85", "vtkPointGaussianMapper, opaque discs of {} spacings")}
 PAN_PX = 0.25  # between the two pictures of a flicker
 LEAST_SHARE = 0.005  # %: holes and bloat below it count as 0
+JOBS = 2  # views at once: sampling has one thread, and 5 GB at half a pixel
 LEAST_DRAWN = 0.85  # a share of the points: nodes beside the picture are not drawn
 
 # A goal of the study (LAYERS) for the points of some cases, each a scene, a sampling and a spacing:
@@ -220,18 +222,21 @@ class Means:
     def __init__(self, options):
         self.options = options
         self.techniques = {label_of(technique): technique for technique in options.techniques}
+        self.jobs = concurrent.futures.ThreadPoolExecutor(JOBS)
 
-    def cases(self, *points):
-        return [Case(self.options, *points[:2], view, points[2]) for view in self.options.views]
+    def over_views(self, measure, label, scene, sampling, spacing):
+        return list(self.jobs.map(lambda view: measure(
+            Case(self.options, scene, sampling, view, spacing), self.techniques[label]),
+            self.options.views))
 
     @functools.cache
     def quality(self, label, *points):
-        told = [case.quality(self.techniques[label]) for case in self.cases(*points)]
+        told = self.over_views(Case.quality, label, *points)
         return {key: mean([one[key] for one in told]) for key in ("psnr", "ssim", "holes", "bloat")}
 
     @functools.cache
     def flicker(self, label, *points):
-        return mean([case.flicker(self.techniques[label]) for case in self.cases(*points)])
+        return mean(self.over_views(Case.flicker, label, *points))
 
     def cell(self, measure, label, *points):
         if measure == "flicker":

@@ -31,6 +31,7 @@ server (xvfb-run -a).
 import argparse
 import collections
 import concurrent.futures
+import contextlib
 import functools
 import hashlib
 import json
@@ -39,6 +40,7 @@ import re
 import shlex
 import subprocess
 import sys
+import threading
 
 HERE = pathlib.Path(__file__).resolve().parent
 PEERS = {"vtk-points": ("points", "1", "vtkPolyDataMapper, {} px"),
@@ -47,6 +49,8 @@ PEERS = {"vtk-points": ("points", "1", "vtkPolyDataMapper, {} px"),
 PAN_PX = 0.25  # between the two pictures of a flicker
 LEAST_SHARE = 0.005  # %: holes and bloat below it count as 0
 JOBS = 2  # views at once: sampling has one thread, and 5 GB at half a pixel
+# An X server starts again when its last client leaves, and refuses who comes meanwhile.
+SCREEN = threading.Lock()
 LEAST_DRAWN = 0.85  # a share of the points: nodes beside the picture are not drawn
 
 # A goal of the study (LAYERS) for the points of some cases, each a scene, a sampling and a spacing:
@@ -143,12 +147,18 @@ class Case:
             "--progress", "none", *words))
         return store
 
+    def draw_peer(self, script, peer, camera, out):
+        with SCREEN:
+            run(sys.executable, script, self.folder, *peer, out, camera)
+
     def draw(self, words, camera, out):
         statistics = out.with_suffix(".json")
         size = "x".join(str(self.facts[side]) for side in ("width", "height"))
-        run(self.options.tool, "render", self.store(), "-o", out, "--size", size, "--camera",
-            camera, "--background", self.background(), "--error", "0.01",
-            "--stats", statistics, *words)
+        store = self.store()
+        with SCREEN if "opengl" in words else contextlib.nullcontext():
+            run(self.options.tool, "render", store, "-o", out, "--size", size, "--camera",
+                camera, "--background", self.background(), "--error", "0.01",
+                "--stats", statistics, *words)
         drawn = json.loads(statistics.read_text())["points_drawn"]
         if drawn < LEAST_DRAWN * self.facts["points"]:
             raise SystemExit(f"{out}: {drawn} of {self.facts['points']} points were drawn")
@@ -165,8 +175,8 @@ class Case:
         peer = peer_of(technique)
         if peer:
             script = HERE / "truth_vtk.py"
-            keep(picture, digest(self.truth, camera, script, vtk_version(), *peer), lambda: run(
-                sys.executable, script, self.folder, *peer, picture, camera))
+            keep(picture, digest(self.truth, camera, script, vtk_version(), *peer),
+                 lambda: self.draw_peer(script, peer, camera, picture))
         else:
             words = shlex.split(technique.partition("=")[2])
             styles = [pathlib.Path(word) for word in words if pathlib.Path(word).is_file()]

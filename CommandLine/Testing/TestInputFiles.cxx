@@ -69,6 +69,21 @@ TEST_F(InputFiles, SameFileTwiceIsReadOnceWithAWarning)
   EXPECT_NE(list.value().warnings[0].find("b.las"), std::string::npos);
 }
 
+TEST_F(InputFiles, LinksToAFileAreTheSameFile)
+{
+  fs::create_hard_link(at("b.las"), at("hard.las"));
+  fs::create_symlink(at("b.las"), at("soft.las"));
+  const auto list = findInputFiles({ folder_.string(), at("hard.las") }, extensions_);
+  ASSERT_TRUE(list) << list.error().what;
+  EXPECT_EQ(
+    list->paths, (std::vector<std::string>{ at("a.LAZ"), at("b.las"), at("deeper/c.las") }));
+  EXPECT_EQ(list->warnings,
+    (std::vector<std::string>{
+      at("hard.las") + " is the same file as " + at("b.las") + ": read once",
+      at("hard.las") + " is the same file as " + at("b.las") + ": read once",
+      at("soft.las") + " is the same file as " + at("b.las") + ": read once" }));
+}
+
 TEST_F(InputFiles, NamedFileIsTakenWhateverItsExtension)
 {
   const auto list = findInputFiles({ at("notes.txt") }, extensions_);

@@ -1,5 +1,6 @@
 #include "InputFiles.h"
 
+#include "pointfront/Base/FileNames.h"
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/Epoch.h"
@@ -8,6 +9,7 @@
 #include <filesystem>
 #include <glob.h>
 #include <map>
+#include <optional>
 
 namespace pointfront
 {
@@ -199,21 +201,19 @@ Result<InputFileList> findInputFiles(const std::vector<std::string>& arguments,
   }
   std::sort(list.paths.begin(), list.paths.end());
 
-  std::map<std::string, std::string> seen; // real path -> as named
+  std::map<std::optional<std::string>, FileNames> seen; // for each epoch
   std::vector<std::string> once;
   for (const std::string& path : list.paths)
   {
-    std::error_code failure;
-    EpochAddress real = EpochAddress::of(path);
-    real.file = fs::canonical(real.file, failure).string();
-    const auto [first, isNew] = seen.emplace(failure ? path : real.text(), path);
-    if (isNew)
+    const EpochAddress asked = EpochAddress::of(path);
+    if (const std::optional<std::string> first = seen[asked.epoch].add(asked.file))
     {
-      once.push_back(path);
+      const EpochAddress before{ *first, asked.epoch };
+      list.warnings.push_back(path + " is the same file as " + before.text() + ": read once");
     }
     else
     {
-      list.warnings.push_back(path + " is the same file as " + first->second + ": read once");
+      once.push_back(path);
     }
   }
   list.paths = std::move(once);

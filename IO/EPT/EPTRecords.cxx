@@ -123,8 +123,12 @@ Result<void> EPTRecords::decode(const EPTNode& node, const RawBytes& file,
     if (wanted[d])
     {
       std::vector<double>& column = block.columns[d];
-      gatherNumbers(
-        { first, stride, dimension.type, !machineIsLittleEndian() }, column.size(), column.data());
+      const RecordNumbers numbers{ first, stride, dimension.type, !machineIsLittleEndian() };
+      gatherNumbers(numbers, column.size(), column.data());
+      if (wantsWholes(dimension.type) && dimension.scale == 1.0 && dimension.offset == 0.0)
+      {
+        gatherWholes(numbers, column.size(), block.wholesOf(d).data());
+      }
       for (double& value : column)
       {
         value = dimension.offset + dimension.scale * value;

@@ -173,6 +173,20 @@ std::uint64_t PCDBinaryTable::chunkRows(std::uint64_t chunk) const
   return std::min(pointsPerChunk, points_ - chunk * pointsPerChunk);
 }
 
+namespace
+{
+/// The wanted column of a field.
+void gatherColumn(const RecordNumbers& numbers, std::size_t field, TableBlock& block)
+{
+  std::vector<double>& column = block.columns[field];
+  gatherNumbers(numbers, column.size(), column.data());
+  if (wantsWholes(numbers.type))
+  {
+    gatherWholes(numbers, column.size(), block.wholesOf(field).data());
+  }
+}
+} // namespace
+
 void PCDBinaryTable::readRecords(
   std::uint64_t chunk, const std::vector<bool>& wanted, TableBlock& block) const
 {
@@ -187,8 +201,8 @@ void PCDBinaryTable::readRecords(
       const PCDFile::Element& element = file_.elements[f];
       const std::size_t offset =
         begin + static_cast<std::size_t>(fieldBegins_[element.field]) + element.byte;
-      gatherNumbers({ file_.map.data() + offset, stride, element.type, machineIsBigEndian() },
-        count, block.columns[f].data());
+      gatherColumn(
+        { file_.map.data() + offset, stride, element.type, machineIsBigEndian() }, f, block);
     }
   }
   file_.map.release(begin, count * stride);
@@ -218,8 +232,7 @@ Result<void> PCDBinaryTable::readColumns(
       }
       first = read.data();
     }
-    gatherNumbers({ first + element.byte, stride, element.type, machineIsBigEndian() }, count,
-      block.columns[f].data());
+    gatherColumn({ first + element.byte, stride, element.type, machineIsBigEndian() }, f, block);
   }
   return {};
 }

@@ -118,7 +118,7 @@ Result<void> PCDTextTable::read(
   {
     return done;
   }
-  block.columns.resize(wanted.size());
+  block.resize(0, wanted);
   for (std::size_t f = 0; f < wanted.size(); ++f)
   {
     block.columns[f].clear();
@@ -127,6 +127,10 @@ Result<void> PCDTextTable::read(
       continue;
     }
     block.columns[f] = numbers.columns[columns_[f]];
+    if (columns_[f] < numbers.wholes.size() && !numbers.wholes[columns_[f]].empty())
+    {
+      block.wholesOf(f) = numbers.wholes[columns_[f]];
+    }
     const PCDFile::Element& element = file_.elements[f];
     const PCDField& field = file_.header.fields[element.field];
     if (field.isPackedColour())

@@ -11,6 +11,8 @@ namespace pointfront
 
 /// The cells of a line; separator as in TextLayout. Blanks and quotes around a cell are dropped.
 std::vector<std::string_view> cellsOf(std::string_view line, char separator);
+/// The same, with two quotes in a row inside quoted text as the one that they stand for.
+std::vector<std::string> textsOf(std::string_view line, char separator);
 /// True if the whole cell is a number.
 bool isNumber(std::string_view cell, char decimalPoint);
 /// ';', ',', a tab, or blanks: the strongest that the line holds.

@@ -117,8 +117,7 @@ std::vector<std::string> namesIn(std::string_view line, char separator)
     line.remove_prefix(1);
   }
   const bool apart = line.find(separator) != std::string_view::npos;
-  const std::vector<std::string_view> cells = cellsOf(line, apart ? separator : separatorOf(line));
-  return { cells.begin(), cells.end() };
+  return textsOf(line, apart ? separator : separatorOf(line));
 }
 
 /// Bits of the coordinates that are named.
@@ -163,7 +162,27 @@ struct Beginning
   std::optional<Dialect> dialect;
   std::string_view comment; ///< the last before it
   std::string_view header; ///< the last line of words before it
+  std::size_t lines = 0; ///< lines of words before it
+  bool counts = false; ///< a lone integer is among them
 };
+
+/// Whether text of one header and no row names x and y, or a comment all three, as exports of no
+/// points are written.
+bool namesNothing(std::string_view text, const Beginning& beginning, TextColumns& columns)
+{
+  constexpr unsigned allAxes = 7;
+  const std::string_view line = beginning.lines > 0 ? beginning.header : beginning.comment;
+  if (beginning.lines > 1 || beginning.counts)
+  {
+    return false;
+  }
+  columns.separator = separatorOf(line);
+  columns.names = namesIn(line, columns.separator);
+  columns.empty =
+    beginning.lines > 0 ? nameXAndY(columns.names) : namedAxes(columns.names) == allAxes;
+  columns.dataBegin = text.size();
+  return columns.empty;
+}
 
 /// Passes the mark of UTF-8 and the lines to skip.
 void begin(std::string_view text, std::uint64_t skip, TextColumns& columns)
@@ -210,6 +229,8 @@ Beginning findRow(std::string_view text, const TextChoice& choice, TextColumns& 
     }
     counted = count;
     beginning.header = count ? beginning.header : line;
+    beginning.lines += count ? 0 : 1;
+    beginning.counts = beginning.counts || count;
   }
   columns.countLines = counted;
   return beginning;
@@ -295,6 +316,23 @@ Result<void> checkTwice(const std::vector<std::string>& names, const std::string
   }
   return {};
 }
+
+/// Text without a row: an empty cloud if a header says so.
+Result<TextColumns> withoutRows(std::string_view text, const Beginning& beginning,
+  const std::vector<std::string>& wanted, const std::string& path, TextColumns columns)
+{
+  if (!namesNothing(text, beginning, columns))
+  {
+    return makeError(Error::Kind::BadFormat,
+      path + ": no line of numbers in the first " + std::to_string(text.size()) + " bytes");
+  }
+  columns.names = wanted.empty() ? columns.names : wanted;
+  if (Result<void> checked = checkTwice(columns.names, path); !checked)
+  {
+    return checked.error();
+  }
+  return columns;
+}
 } // namespace
 
 Result<TextColumns> TextColumns::find(std::string_view text, const std::vector<std::string>& wanted,
@@ -307,8 +345,7 @@ Result<TextColumns> TextColumns::find(std::string_view text, const std::vector<s
   const Beginning beginning = findRow(text, choice, columns);
   if (!beginning.dialect)
   {
-    return makeError(Error::Kind::BadFormat,
-      path + ": no line of numbers in the first " + std::to_string(text.size()) + " bytes");
+    return withoutRows(text, beginning, wanted, path, std::move(columns));
   }
   columns.separator = beginning.dialect->separator;
   columns.decimalPoint = beginning.dialect->decimalPoint;

@@ -22,6 +22,7 @@ struct TextColumns
   std::uint64_t dataLine = 1; ///< number of the line that begins there
   bool countLines = false; ///< PTS: a lone integer says how many points follow
   bool guessed = false; ///< neither a header nor the user named the columns
+  bool empty = false; ///< a header and no row: a cloud of no points, if `text` is the whole file
 
   /// `text` is the file, or its beginning; `wanted` the names that the user gave, or empty.
   /// Header   the first line with a word that is no number, or the comment before the first row if

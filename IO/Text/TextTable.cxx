@@ -62,7 +62,7 @@ Result<void> TextTable::index(const TextColumns& columns, const SurveyOptions& s
   {
     return opened;
   }
-  if (rows().badRows() * 2 > rows().rows() || rows().rows() == 0)
+  if (rows().badRows() * 2 > rows().rows() || (rows().rows() == 0 && !columns.empty))
   {
     return makeError(Error::Kind::BadFormat,
       path_ +
@@ -102,6 +102,11 @@ Result<std::unique_ptr<PointTable>> TextTable::open(
   if (!columns)
   {
     return columns.error();
+  }
+  if (columns->empty && beginningOf(map).size() < map.size())
+  {
+    return makeError(
+      Error::Kind::BadFormat, path + ": no line of numbers behind the header at its beginning");
   }
   // The rows keep the map's address: the table must not move once they are there.
   auto table = std::unique_ptr<TextTable>(new TextTable(path, std::move(map)));

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 
 namespace pointfront::test
 {
@@ -170,7 +171,8 @@ TEST(TextRowsThatAreNone, AreRejectedAndTold)
 TEST(TextWithoutPoints, IsRefused)
 {
   EXPECT_FALSE(TextFormat().open(writeFile("none.txt", "2\n- _ -\n1 2 3\n")).ok());
-  for (const char* text : { "", "\n\n", "hello\nworld\n", "1\n2\n3\n", "x,y,z\n" })
+  for (const char* text : { "", "\n\n", "hello\nworld\n", "1\n2\n3\n", "x,y\na,b\n",
+         "# about x, y\n", "a,b,c\n", "2\nx y z\n" })
   {
     const std::string path = writeFile("none.txt", text);
     EXPECT_FALSE(TextFormat().accepts(path)) << text;
@@ -249,6 +251,73 @@ TEST(TextScans, OfPTXAreTransformed)
   ASSERT_EQ(source->chunkCount(), 2u);
   EXPECT_EQ(*source->description().scanner(0), glm::dvec3(100, 200, 300));
   EXPECT_EQ(*source->description().scanner(1), glm::dvec3(0, 0, 0));
+}
+
+TEST(TextWithoutPoints, WithAHeaderIsAnEmptyCloud)
+{
+  for (const char* text : { "x,y,z,id,red,green,blue", "# x y z id red green blue\n",
+         "\"x\";\"y\";\"z\";\"id\";\"red\";\"green\";\"blue\"\r\n\r\n" })
+  {
+    SCOPED_TRACE(text);
+    EXPECT_TRUE(TextFormat().accepts(writeFile("points.txt", text)));
+    const auto source = openText(text);
+    ASSERT_TRUE(source);
+    EXPECT_EQ(source->description().pointCount, 0u);
+    EXPECT_EQ(source->description().schema.size(), 2u);
+    EXPECT_TRUE(source->description().schema.find("rgb"));
+    EXPECT_EQ(source->description().warnings, std::vector<std::string>{});
+    EXPECT_EQ(readPoints(*source).size(), 0u);
+  }
+}
+
+TEST(TextIntegers, AreExactWhereADoubleRoundsThem)
+{
+  const auto source = openText("x,y,z,a,b,gps_time,c[0],c[1]\n"
+                               "1,2,3,9007199254740993,18446744073709551615,1234567890123456789,1,"
+                               "-9223372036854775807\n"
+                               "1,2,4,-9223372036854775808,0,1234567890123456788,2,5\n"
+                               "1,2,bad,1,1,1,1,1\n"
+                               "1,2,5,7,9223372036854775809,0,3,9223372036854775807\n");
+  ASSERT_TRUE(source);
+  EXPECT_EQ(schemaText(*source), "a int64, b uint64, gps_time int64, c int64x2");
+  const PointBatch all = readPoints(*source);
+  constexpr std::int64_t least = std::numeric_limits<std::int64_t>::min();
+  EXPECT_EQ(columnOf<std::int64_t>(*source, all, "a"),
+    (std::vector<std::int64_t>{ 9007199254740993, least, 0, 7 }));
+  EXPECT_EQ(columnOf<std::uint64_t>(*source, all, "b"),
+    (std::vector<std::uint64_t>{ 18446744073709551615u, 0, 0, 9223372036854775809u }));
+  EXPECT_EQ(columnOf<std::int64_t>(*source, all, "gps_time"),
+    (std::vector<std::int64_t>{ 1234567890123456789, 1234567890123456788, 0, 0 }));
+  EXPECT_EQ(columnOf<std::int64_t>(*source, all, "c"),
+    (std::vector<std::int64_t>{ 1, least + 1, 2, 5, 0, 0, 3, -1 - least }));
+}
+
+TEST(TextIntegers, ThatNoTypeHoldsAreToldWhenTheyAreRounded)
+{
+  for (const char* other : { "0.5", "nan", "1e300", "-1", "18446744073709551616" })
+  {
+    SCOPED_TRACE(other);
+    const auto source =
+      openText(std::string("x,y,z,id\n1,2,3,18446744073709551615\n1,2,4,") + other + "\n");
+    ASSERT_TRUE(source);
+    EXPECT_EQ(schemaText(*source), "id float64");
+    ASSERT_EQ(source->description().warnings.size(), 1u);
+    EXPECT_NE(source->description().warnings[0].find("'id' are rounded"), std::string::npos);
+  }
+  const auto sound = openText("x,y,z,a,b\n1,2,3,9007199254740992,1e300\n1,2,4,0.5,1\n");
+  ASSERT_TRUE(sound);
+  EXPECT_EQ(sound->description().warnings, std::vector<std::string>{});
+}
+
+TEST(TextHeaders, KeepQuotesThatAreDoubled)
+{
+  const auto source =
+    openText("x,y,z,\"a \"\"b\"\"\",\"c, \"\"d\"\", e\",\"\"\"f\"\n1,2,3,4,5,6\n");
+  ASSERT_TRUE(source);
+  EXPECT_EQ(schemaText(*source), "a \"b\" uint8, c, \"d\", e uint8, \"f uint8");
+  const auto skipped = openText("a,x,y,z\n\"1,\"\"2,3\",4,5,6\n", { "-", "x", "y", "z" });
+  ASSERT_TRUE(skipped);
+  EXPECT_EQ(readPoints(*skipped).positions, std::vector<glm::dvec3>{ glm::dvec3(4, 5, 6) });
 }
 
 TEST(CutTextFile, IsSoundAtEveryByte)

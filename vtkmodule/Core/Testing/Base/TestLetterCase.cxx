@@ -12,6 +12,25 @@ TEST(LetterCase, LettersBecomeSmallAndNothingElseChanges)
   EXPECT_EQ(lowered("\xC3\x9C.LAZ"), "\xC3\x9C.laz") << "bytes of other letters stay";
 }
 
+TEST(LetterCase, LettersBecomeCapitalsAndNothingElseChanges)
+{
+  EXPECT_EQ(capitals("linestring zm{`"), "LINESTRING ZM{`");
+  EXPECT_EQ(capitals("\xC3\xBC.wld"), "\xC3\xBC.WLD");
+}
+
+TEST(LetterCase, ClassesAreThoseOfASCII)
+{
+  for (int byte = 0; byte < 256; ++byte)
+  {
+    const char c = static_cast<char>(byte);
+    const bool letter = (byte >= 'a' && byte <= 'z') || (byte >= 'A' && byte <= 'Z');
+    EXPECT_EQ(isAsciiLetter(c), letter) << byte;
+    EXPECT_EQ(isAsciiLetterOrDigit(c), letter || (byte >= '0' && byte <= '9')) << byte;
+    EXPECT_EQ(isAsciiSpace(c), std::string_view(" \t\n\v\f\r").find(c) != std::string_view::npos)
+      << byte;
+  }
+}
+
 TEST(LetterCase, NamesAreComparedWithoutIt)
 {
   EXPECT_TRUE(sameWithoutCase("INTENSITY", "intensity"));

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <random>
 #include <string>
+#include <utility>
 
 namespace pointfront
 {
@@ -45,6 +46,24 @@ TEST(DecimalNumber, IsTheNearestDoubleForAnyDigits)
     text.insert(static_cast<std::size_t>(random() % (text.size() + 1)), ".");
     text += i % 2 == 0 ? "" : "e" + std::to_string(exponent(random));
     ASSERT_EQ(readWhole(text).value, std::strtod(text.c_str(), nullptr)) << text << " seed 7";
+  }
+}
+
+TEST(DecimalNumber, IsAnExactIntegerOfUpTo64Bits)
+{
+  const std::pair<const char*, std::uint64_t> integers[] = { { "0", 0 }, { "-7", 7 },
+    { "0009007199254740993", 9007199254740993u }, { "-9223372036854775808", 1ull << 63 },
+    { "9999999999999999999", 9999999999999999999u },
+    { "18446744073709551615", 18446744073709551615u } };
+  for (const auto& [text, magnitude] : integers)
+  {
+    EXPECT_TRUE(readWhole(text).integer) << text;
+    EXPECT_EQ(readWhole(text).magnitude, magnitude) << text;
+  }
+  for (const char* text : { "1.", "1.0", "1e3", "18446744073709551616", "99999999999999999999",
+         "100000000000000000000", "nan", "-inf" })
+  {
+    EXPECT_FALSE(readWhole(text).integer) << text;
   }
 }
 

@@ -61,6 +61,10 @@ ScalarType textType(const FieldStatistics& values)
   {
     return smallestInteger(values.low, values.high);
   }
+  if (values.wideIntegers())
+  {
+    return values.beyondInt64 ? ScalarType::UInt64 : ScalarType::Int64;
+  }
   const bool short32 = shortText(values) && reach < 1e37;
   return short32 ? ScalarType::Float32 : ScalarType::Float64;
 }
@@ -78,7 +82,7 @@ ScalarType knownType(const TableField& field, const FieldStatistics& values, Sca
   }
   if (isFloat(wished))
   {
-    const bool text = !field.type;
+    const bool text = !field.type && !values.wideIntegers();
     return text && (wished == ScalarType::Float64 || shortText(values)) ? wished
                                                                         : ownType(field, values);
   }
@@ -176,6 +180,7 @@ private:
   void addArrays();
   void addRest();
   void addColumn(Attribute attribute, std::vector<std::size_t> fields, double factor);
+  void warnOfRounding(const Attribute& attribute, const FieldStatistics& values);
 
   const std::vector<TableField>& fields_;
   const std::vector<FieldStatistics>& statistics_;
@@ -286,6 +291,16 @@ void Planner::addNormal()
   }
 }
 
+void Planner::warnOfRounding(const Attribute& attribute, const FieldStatistics& values)
+{
+  if (values.rounded && isFloat(attribute.type))
+  {
+    plan_.warnings.push_back("The integers of '" + attribute.name +
+      "' are rounded to doubles: some are beyond 2^53, and not all of its values are integers that "
+      "64 bits hold.");
+  }
+}
+
 /// a[0], a[1] ... one behind the other.
 void Planner::addArrays()
 {
@@ -313,6 +328,7 @@ void Planner::addArrays()
     {
       Attribute attribute{ head->first, ownType(fields_[f], values),
         static_cast<std::uint8_t>(elements.size()) };
+      warnOfRounding(attribute, values);
       addColumn(std::move(attribute), std::move(elements), 1.0);
       continue;
     }
@@ -340,6 +356,10 @@ void Planner::addRest()
     attribute.name = known ? role.attribute : fields_[f].name;
     attribute.type = role.type ? knownType(fields_[f], statistics_[f], *role.type)
                                : ownType(fields_[f], statistics_[f]);
+    if (!fields_[f].type)
+    {
+      warnOfRounding(attribute, statistics_[f]);
+    }
     addColumn(std::move(attribute), { f }, 1.0);
   }
 }

@@ -1,7 +1,8 @@
 #include "pointfront/Table/DecimalNumber.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <algorithm>
-#include <cctype>
 #include <charconv>
 #include <cstdint>
 #include <limits>
@@ -23,18 +24,6 @@ bool isDigit(char c)
   return c >= '0' && c <= '9';
 }
 
-bool startsWith(const char* text, const char* end, const char* word)
-{
-  for (; *word != '\0'; ++word, ++text)
-  {
-    if (text == end || std::tolower(static_cast<unsigned char>(*text)) != *word)
-    {
-      return false;
-    }
-  }
-  return true;
-}
-
 /// nan, nan(ind), 1.#QNAN, inf, infinity, 1.#INF behind the sign.
 const char* readSpecial(const char* text, const char* end, bool negative, DecimalNumber& number)
 {
@@ -50,7 +39,9 @@ const char* readSpecial(const char* text, const char* end, bool negative, Decima
     { "1.#snan", 7, false }, { "1.#ind", 6, false }, { "1.#inf", 6, true } };
   for (const Word& word : words)
   {
-    if (startsWith(text, end, word.spelling))
+    const auto length = static_cast<std::size_t>(word.length);
+    const std::size_t there = std::min(length, static_cast<std::size_t>(end - text));
+    if (sameWithoutCase({ text, there }, word.spelling))
     {
       number = DecimalNumber{};
       number.value = word.infinite ? (negative ? -infinity : infinity)
@@ -170,6 +161,10 @@ const char* readDecimal(const char* text, const char* end, char point, DecimalNu
   const bool zero = digits.significant == 0;
   number.decimals = zero ? 0 : std::max(0, places - digits.trailingZeros - exponent);
   number.digits = std::max(1, digits.significant - digits.trailingZeros);
+  number.magnitude = digits.mantissa;
+  number.integer = !number.pointSeen &&
+    (digits.dropped == 0 ||
+      (digits.dropped == 1 && std::from_chars(begin, behind, number.magnitude).ec == std::errc()));
   const int power = exponent - places + digits.dropped;
   if (zero)
   {

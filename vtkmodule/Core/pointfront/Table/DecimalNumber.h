@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+
 namespace pointfront
 {
 
@@ -10,6 +12,8 @@ struct DecimalNumber
   int decimals = 0; ///< places after the point, exponent counted in, trailing zeros not
   int digits = 1; ///< significant digits, trailing zeros not; at least 1
   bool pointSeen = false; ///< a decimal point or an exponent is there
+  bool integer = false; ///< digits alone, and 64 bits hold them: `magnitude` is exact
+  std::uint64_t magnitude = 0; ///< an integer without its sign
 };
 
 /// Reads a number from `text` on, which ends at `end`: sign, digits, one `point`, an exponent (e or

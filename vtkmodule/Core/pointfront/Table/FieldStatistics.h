@@ -18,8 +18,17 @@ struct FieldStatistics
   int decimals = 0; ///< text: most places after the point, trailing zeros left out
   int digits = 0; ///< text: most significant digits
   bool pointSeen = false; ///< text: a decimal point or an exponent is written somewhere
+  bool integers = true; ///< text: 64 bits hold every number, with or without a sign
+  bool beyondInt64 = false; ///< text: some integer is above 2^63 - 1
+  bool rounded = false; ///< text: some number without a point is no double
 
   bool empty() const { return low > high; }
+  /// Text of integers alone, some of which doubles may round.
+  bool wideIntegers() const
+  {
+    constexpr double exact = 9007199254740992.0; // 2^53
+    return digits > 0 && integers && !(beyondInt64 && low < 0.0) && (high > exact || low < -exact);
+  }
   void add(double value)
   {
     if (!std::isfinite(value))
@@ -43,6 +52,9 @@ struct FieldStatistics
     decimals = std::max(decimals, other.decimals);
     digits = std::max(digits, other.digits);
     pointSeen = pointSeen || other.pointSeen;
+    integers = integers && other.integers;
+    beyondInt64 = beyondInt64 || other.beyondInt64;
+    rounded = rounded || other.rounded;
   }
 };
 

@@ -25,18 +25,29 @@ struct TableField
 
 /// Rows of a chunk as numbers, one column a field. Columns that nobody asked for are empty.
 /// Exactness  every type of up to 32 bits and every float is exact in a double; integers of 64 bits
-///            are so up to 2^53.
+///            are so up to 2^53, beyond by `wholes`.
 struct TableBlock
 {
   std::vector<std::vector<double>> columns;
+  /// The same numbers as the bits of 64-bit integers, signed where the double is negative; empty
+  /// for columns whose doubles are exact. The whole may be empty, too.
+  std::vector<std::vector<std::uint64_t>> wholes;
 
   void resize(std::size_t rows, const std::vector<bool>& wanted)
   {
     columns.resize(wanted.size());
+    wholes.clear();
     for (std::size_t f = 0; f < wanted.size(); ++f)
     {
       columns[f].resize(wanted[f] ? rows : 0);
     }
+  }
+  /// Room for the exact integers of a wanted column.
+  std::vector<std::uint64_t>& wholesOf(std::size_t field)
+  {
+    wholes.resize(columns.size());
+    wholes[field].resize(columns[field].size());
+    return wholes[field];
   }
 };
 

@@ -20,15 +20,15 @@ T loadSwapped(const std::byte* from)
   return value;
 }
 
-template <typename T>
-void gather(const RecordNumbers& numbers, std::size_t count, double* to)
+template <typename T, typename To>
+void gather(const RecordNumbers& numbers, std::size_t count, To* to)
 {
   const std::byte* from = numbers.first;
   if (numbers.swapped)
   {
     for (std::size_t i = 0; i < count; ++i, from += numbers.stride)
     {
-      to[i] = static_cast<double>(loadSwapped<T>(from));
+      to[i] = static_cast<To>(loadSwapped<T>(from));
     }
     return;
   }
@@ -36,7 +36,7 @@ void gather(const RecordNumbers& numbers, std::size_t count, double* to)
   {
     T value;
     std::memcpy(&value, from, sizeof value);
-    to[i] = static_cast<double>(value);
+    to[i] = static_cast<To>(value);
   }
 }
 } // namespace
@@ -52,6 +52,16 @@ bool machineIsLittleEndian()
 void gatherNumbers(const RecordNumbers& numbers, std::size_t count, double* to)
 {
   visitScalar(numbers.type, [&](auto zero) { gather<decltype(zero)>(numbers, count, to); });
+}
+
+void gatherWholes(const RecordNumbers& numbers, std::size_t count, std::uint64_t* to)
+{
+  gather<std::uint64_t>(numbers, count, to); // the bits of either type
+}
+
+bool wantsWholes(ScalarType type)
+{
+  return type == ScalarType::Int64 || type == ScalarType::UInt64;
 }
 
 } // namespace pointfront

@@ -3,6 +3,7 @@
 #include "pointfront/Points/ScalarType.h"
 
 #include <cstddef>
+#include <cstdint>
 
 namespace pointfront
 {
@@ -20,5 +21,9 @@ bool machineIsLittleEndian();
 
 /// The first `count` of them as doubles. Pure.
 void gatherNumbers(const RecordNumbers& numbers, std::size_t count, double* to);
+/// The same as integers, of a type that has 64 bits and is no float.
+void gatherWholes(const RecordNumbers& numbers, std::size_t count, std::uint64_t* to);
+/// Whether doubles round some numbers of the type.
+bool wantsWholes(ScalarType type);
 
 } // namespace pointfront

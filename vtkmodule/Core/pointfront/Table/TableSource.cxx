@@ -244,6 +244,23 @@ void storeColumn(const std::vector<double>& values, double factor, std::size_t c
   }
 }
 
+/// Exact integers; `values` are the same as doubles.
+template <typename T>
+void storeWholes(const std::vector<std::uint64_t>& wholes, const std::vector<double>& values,
+  std::size_t components, std::size_t component, std::byte* to)
+{
+  constexpr auto largest = static_cast<std::uint64_t>(std::numeric_limits<T>::max());
+  constexpr bool hasSign = std::is_signed_v<T>;
+  to += component * sizeof(T);
+  for (std::size_t i = 0; i < values.size(); ++i)
+  {
+    const std::uint64_t bits =
+      values[i] < 0.0 ? (hasSign ? wholes[i] : 0) : std::min(wholes[i], largest);
+    std::memcpy(to, &bits, sizeof bits);
+    to += components * sizeof(T);
+  }
+}
+
 void storeComponent(const Attribute& attribute, const std::vector<double>& values, double factor,
   std::size_t component, std::byte* to)
 {
@@ -322,8 +339,24 @@ void TableSource::convert(const TableBlock& block, std::size_t count, PointBatch
     const ColumnPlan::Column& column = plan_.columns[c];
     for (std::size_t k = 0; k < column.fields.size(); ++k)
     {
-      storeComponent(description_.schema[c], block.columns[column.fields[k]], column.factor, k,
-        batch.columns[c].data());
+      const Attribute& attribute = description_.schema[c];
+      const std::size_t field = column.fields[k];
+      const std::vector<double>& values = block.columns[field];
+      std::byte* const to = batch.columns[c].data();
+      const bool exact =
+        column.factor == 1.0 && field < block.wholes.size() && !block.wholes[field].empty();
+      if (exact && attribute.type == ScalarType::Int64)
+      {
+        storeWholes<std::int64_t>(block.wholes[field], values, attribute.components, k, to);
+      }
+      else if (exact && attribute.type == ScalarType::UInt64)
+      {
+        storeWholes<std::uint64_t>(block.wholes[field], values, attribute.components, k, to);
+      }
+      else
+      {
+        storeComponent(attribute, values, column.factor, k, to);
+      }
     }
   }
 }

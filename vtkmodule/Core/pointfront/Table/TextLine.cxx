@@ -51,9 +51,9 @@ public:
     if (p_ != end_ && *p_ == '"') // quoted text may hold separators
     {
       const char* const open = p_++;
-      while (p_ != end_ && *p_ != '"')
+      while (p_ != end_ && (*p_ != '"' || (end_ - p_ > 1 && p_[1] == '"'))) // "" is one of its text
       {
-        ++p_;
+        p_ += *p_ == '"' ? 2 : 1;
       }
       p_ = p_ == end_ ? open : p_ + 1;
     }

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 #include <cstring>
 #include <limits>
+#include <utility>
 
 namespace pointfront
 {
@@ -23,8 +25,27 @@ const char* endOfLine(const char* p, const char* end, char lineEnd, const char*&
   return found != nullptr ? found : end;
 }
 
+constexpr std::uint64_t beyondSigned = std::uint64_t(1) << 63;
+constexpr int exactDigits = 15; ///< a double holds every number of so many
+
+bool isRounded(const DecimalNumber& number)
+{
+  // 2^64 as a double is one too many for the way back.
+  constexpr double end = 18446744073709551616.0;
+  const double rounded = static_cast<double>(number.magnitude);
+  return number.integer
+    ? rounded >= end || static_cast<std::uint64_t>(rounded) != number.magnitude
+    : !number.pointSeen && std::isfinite(number.value) && number.digits > exactDigits;
+}
+
 void addNumber(FieldStatistics& statistics, const DecimalNumber& number)
 {
+  const bool beyond = number.integer && number.magnitude >= beyondSigned;
+  const bool negative = std::signbit(number.value);
+  statistics.integers =
+    statistics.integers && number.integer && !(negative && number.magnitude > beyondSigned);
+  statistics.beyondInt64 = statistics.beyondInt64 || (beyond && !negative);
+  statistics.rounded = statistics.rounded || isRounded(number);
   statistics.add(number.value);
   statistics.decimals = std::max(statistics.decimals, number.decimals);
   statistics.digits = std::max(statistics.digits, number.digits);
@@ -158,6 +179,14 @@ Result<void> TextRows::read(
   const Chunk& piece = chunks_[static_cast<std::size_t>(chunk)];
   block.resize(static_cast<std::size_t>(piece.rows), wanted);
   std::vector<DecimalNumber> numbers(layout_.fieldCount);
+  std::vector<std::pair<std::size_t, std::uint64_t*>> exact; // fields, and where they go
+  for (std::size_t f = 0; f < numbers.size(); ++f)
+  {
+    if (wanted[f] && statistics_[f].wideIntegers())
+    {
+      exact.emplace_back(f, block.wholesOf(f).data());
+    }
+  }
   const double nothing = std::numeric_limits<double>::quiet_NaN();
   const char* const end = text(piece.end);
   const char* next = nullptr;
@@ -177,6 +206,11 @@ Result<void> TextRows::read(
       {
         block.columns[f][row] = kind == TextLine::Row ? numbers[f].value : nothing;
       }
+    }
+    for (const auto& [f, to] : exact)
+    {
+      const std::uint64_t magnitude = kind == TextLine::Row ? numbers[f].magnitude : 0;
+      to[row] = numbers[f].value < 0.0 ? 0 - magnitude : magnitude;
     }
     ++row;
   }

@@ -1,6 +1,7 @@
 #include "SystemName.h"
 
-#include <cctype>
+#include "pointfront/Base/LetterCase.h"
+
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -31,11 +32,11 @@ public:
   {
     Element found;
     skip();
-    while (at_ < text_.size() &&
-      (std::isalnum(static_cast<unsigned char>(text_[at_])) || text_[at_] == '_'))
+    while (at_ < text_.size() && (isAsciiLetterOrDigit(text_[at_]) || text_[at_] == '_'))
     {
-      found.keyword += static_cast<char>(std::toupper(static_cast<unsigned char>(text_[at_++])));
+      found.keyword += text_[at_++];
     }
+    found.keyword = capitals(found.keyword);
     skip();
     const bool opens = at_ < text_.size() && (text_[at_] == '[' || text_[at_] == '(');
     if (found.keyword.empty() || !opens || depth > deepest)
@@ -60,8 +61,7 @@ private:
 
   void skip()
   {
-    while (at_ < text_.size() &&
-      (std::isspace(static_cast<unsigned char>(text_[at_])) || text_[at_] == ','))
+    while (at_ < text_.size() && (isAsciiSpace(text_[at_]) || text_[at_] == ','))
     {
       ++at_;
     }

@@ -1,8 +1,8 @@
 #include "WorldFile.h"
 
-#include <algorithm>
+#include "pointfront/Base/LetterCase.h"
+
 #include <array>
-#include <cctype>
 #include <filesystem>
 #include <fstream>
 #include <locale>
@@ -25,10 +25,7 @@ std::string worldFileOf(const std::string& image)
   candidates.push_back(".wld");
   for (const std::string& candidate : candidates)
   {
-    std::string capital = candidate;
-    std::transform(capital.begin(), capital.end(), capital.begin(),
-      [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
-    for (const std::string& spelling : { candidate, capital })
+    for (const std::string& spelling : { candidate, capitals(candidate) })
     {
       fs::path world = path;
       world.replace_extension(spelling);

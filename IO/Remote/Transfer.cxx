@@ -28,11 +28,11 @@ constexpr const char* agent = "pointfront/0.1";
 
 std::string trimmed(std::string_view text)
 {
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.front())) != 0)
+  while (!text.empty() && isAsciiSpace(text.front()))
   {
     text.remove_prefix(1);
   }
-  while (!text.empty() && std::isspace(static_cast<unsigned char>(text.back())) != 0)
+  while (!text.empty() && isAsciiSpace(text.back()))
   {
     text.remove_suffix(1);
   }

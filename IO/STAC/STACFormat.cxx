@@ -10,7 +10,6 @@
 #include "pointfront/Tiles/TiledCloud.h"
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -40,7 +39,7 @@ bool STACFormat::accepts(const std::string& path) const
     return true;
   }
   const std::string first = beginningOf(path, 1);
-  if (first.empty() || (first[0] != '{' && std::isspace(static_cast<unsigned char>(first[0])) == 0))
+  if (first.empty() || (first[0] != '{' && !isAsciiSpace(first[0])))
   {
     return false;
   }

@@ -26,6 +26,7 @@ RULES = {
     "Unfinished": text_rules.unfinished,
     "IdleTests": text_rules.idle_tests,
     "QuietLibraries": text_rules.quiet_libraries,
+    "Letters": text_rules.letters,
     "Links": text_rules.links,
     "Anchors": doc_rules.anchors,
     "LinkedNames": doc_rules.linked_names,

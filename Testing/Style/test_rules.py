@@ -187,6 +187,18 @@ class RulesTest(unittest.TestCase):
             [("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2), ("IO/LAS/C.cxx", 4)],
         )
 
+    def test_letters(self):
+        tree = {
+            "IO/LAS/A.cxx": "std::toupper(c);\nstd::isspace(c);\nstd::isdigit(c);\n",
+            "IO/LAS/B.cxx": "// std::tolower(c)\nisAsciiSpace(c);\n",
+            "IO/LAS/Testing/TestA.cxx": "std::isalnum(c);\n",
+            "CommandLine/C.cxx": "std::isalpha(c);\n",
+        }
+        self.assertEqual(
+            self.faults("Letters", tree),
+            [("CommandLine/C.cxx", 1), ("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2)],
+        )
+
     def test_links(self):
         tree = {
             "docs/a.md": f"[b](b.md#part) [up](../IO) [host]({ADDRESS})\n![no](images/c.png)\n",

@@ -198,6 +198,20 @@ def quiet_libraries(files):
             yield file.path, text.count("\n", 0, match.start()) + 1, "swallows an exception"
 
 
+LOCALE = re.compile(
+    r"\bstd::(to(lower|upper)|is(alpha|alnum|space|upper|lower|punct|print|graph))\b"
+)
+
+
+def letters(files):
+    """Letters have classes and cases of ASCII, not those of the process's locale."""
+    for file in files:
+        if file.is_cpp and not file.in_tests:
+            for number, line in enumerate(file.code_lines(), start=1):
+                if LOCALE.search(line):
+                    yield file.path, number, "asks the locale; Base/LetterCase.h asks ASCII"
+
+
 LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")
 
 

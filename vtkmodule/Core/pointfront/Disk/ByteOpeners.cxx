@@ -5,7 +5,6 @@
 #include "pointfront/Threads/ForkHold.h"
 
 #include <algorithm>
-#include <cctype>
 #include <utility>
 
 namespace pointfront
@@ -57,9 +56,9 @@ std::string schemeOf(std::string_view path)
     return {};
   }
   const std::string_view scheme = path.substr(0, end);
-  const bool sound = std::isalpha(static_cast<unsigned char>(scheme.front())) != 0 &&
+  const bool sound = isAsciiLetter(scheme.front()) &&
     std::all_of(scheme.begin(), scheme.end(),
-      [](unsigned char c) { return std::isalnum(c) != 0 || c == '+' || c == '-' || c == '.'; });
+      [](char c) { return isAsciiLetterOrDigit(c) || c == '+' || c == '-' || c == '.'; });
   if (!sound)
   {
     return {};

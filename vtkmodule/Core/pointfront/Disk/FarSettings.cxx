@@ -23,7 +23,7 @@ Error wrong(const std::string& what)
 
 bool isPlain(char letter)
 {
-  return std::isalnum(static_cast<unsigned char>(letter)) != 0 ||
+  return isAsciiLetterOrDigit(letter) ||
     std::string_view("/._-~").find(letter) != std::string_view::npos;
 }
 

@@ -1,8 +1,8 @@
 #include "pointfront/Query/WellKnownText.h"
 
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Table/DecimalNumber.h"
 
-#include <cctype>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -37,7 +37,7 @@ private:
   }
   void skipBlanks()
   {
-    while (at_ < text_.size() && std::isspace(static_cast<unsigned char>(text_[at_])) != 0)
+    while (at_ < text_.size() && isAsciiSpace(text_[at_]))
     {
       ++at_;
     }
@@ -62,12 +62,12 @@ private:
   std::string word()
   {
     skipBlanks();
-    std::string letters;
-    while (at_ < text_.size() && std::isalpha(static_cast<unsigned char>(text_[at_])) != 0)
+    const std::size_t begin = at_;
+    while (at_ < text_.size() && isAsciiLetter(text_[at_]))
     {
-      letters += static_cast<char>(std::toupper(static_cast<unsigned char>(text_[at_++])));
+      ++at_;
     }
-    return letters;
+    return capitals(text_.substr(begin, at_ - begin));
   }
   bool number(double& value);
   bool vertex(glm::dvec2& place);

@@ -1,7 +1,8 @@
 #include "pointfront/Table/RecordFile.h"
 
+#include "pointfront/Base/LetterCase.h"
+
 #include <cassert>
-#include <cctype>
 #include <utility>
 
 namespace pointfront
@@ -64,7 +65,7 @@ std::string fieldName(const std::string& attribute)
   std::string name = attribute;
   for (char& c : name)
   {
-    const bool kept = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '[' || c == ']';
+    const bool kept = isAsciiLetterOrDigit(c) || c == '[' || c == ']';
     c = kept ? c : '_';
   }
   return name.empty() ? "_" : name;

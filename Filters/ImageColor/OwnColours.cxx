@@ -1,6 +1,7 @@
 #include "OwnColours.h"
 
 #include "pointfront/Neighbourhood/PointTiles.h"
+#include "pointfront/Points/WidenedColour.h"
 #include "pointfront/Threads/WorkCrew.h"
 
 #include <algorithm>
@@ -12,7 +13,6 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::uint16_t mostEight = 255;
 constexpr std::uint64_t firstLooked = 16; ///< chunks all over the source: most have bright points
 
 Result<bool> isDeep(
@@ -27,7 +27,7 @@ Result<bool> isDeep(
   {
     std::uint16_t value = 0;
     std::memcpy(&value, bytes.data() + at, sizeof value);
-    if (value > mostEight)
+    if (value > largestOf8Bits)
     {
       return true;
     }
@@ -73,7 +73,7 @@ Result<bool> haveEightBits(
   const SourceDescription& description = source.description();
   if (description.deepColours || description.largestColour)
   {
-    return !description.deepColours && *description.largestColour <= mostEight;
+    return !description.deepColours && *description.largestColour <= largestOf8Bits;
   }
   const std::uint64_t chunks = source.chunkCount();
   PointBatch batch;

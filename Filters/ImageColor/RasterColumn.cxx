@@ -2,6 +2,8 @@
 
 #include "OwnColours.h"
 
+#include "pointfront/Points/WidenedColour.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -164,7 +166,7 @@ void RasterColumn::widen(std::vector<std::byte>& values) const
 {
   for (std::size_t at = 0; widens_ && at + 2 <= values.size(); at += 2)
   {
-    const auto wide = static_cast<std::uint16_t>(257u * load<std::uint16_t>(values.data() + at));
+    const std::uint16_t wide = widenedColour(load<std::uint16_t>(values.data() + at));
     std::memcpy(values.data() + at, &wide, sizeof wide);
   }
 }

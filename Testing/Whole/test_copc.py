@@ -74,6 +74,42 @@ class Publish(ToolTest):
             self.expect_same(plain, out, 518862, "intensity", "gps_time")
             self.assertIn(("LASF_Projection", 2112), file.records)
 
+    def test_colours_of_8_bits_are_built_as_those_of_a_las_file(self):
+        clouds = {}
+        for name, first, colour in (("dark", 0.0, (200, 0, 100)), ("wide", 50.0, (40000, 7, 300))):
+            las = write_las(self.folder / f"{name}.las",
+                            [(first + x, float(y), 0.0, *colour) for x in range(20)
+                             for y in range(20)])
+            store = self.folder / f"{name}.pfront"
+            self.succeed("build", las, "-o", store, "--color-depth", "16")
+            clouds[name] = las, self.publish(store, name=f"{name}.copc.laz")[0], store
+        ends = {}
+        listed = self.folder / "both.pfronts"
+        listed.write_text("".join(f"{clouds[name][1]}\n" for name in clouds))
+        both = self.folder / "both.pfront"
+        for kind, number in (("las", 0), ("copc", 1), ("store", 2)):
+            inputs = [files[number] for files in clouds.values()]
+            self.succeed("build", *inputs, "-o", both, "--force")
+            ends[kind] = self.colours(both)
+            self.succeed("build", inputs[0], "-o", both, "--force")
+            ends[f"dark {kind}"] = self.colours(both)
+        self.succeed("build", listed, "-o", both, "--force")
+        ends["list"] = self.colours(both)
+        wide = {(200 * 257, 0, 100 * 257), (40000, 7, 300)}
+        dark = {(200, 0, 100)}
+        self.assertEqual(ends, {
+            "las": wide, "dark las": dark, "copc": wide, "dark copc": dark, "list": wide,
+            # Whoever built it said that it has 16 bits.
+            "store": {(200, 0, 100), (40000, 7, 300)}, "dark store": dark})
+
+    def colours(self, cloud):
+        out = self.folder / "colours.csv"
+        self.succeed("export", cloud, "-o", out, "--force")
+        with open(out, encoding="ascii") as file:
+            names = file.readline().strip().split(",")
+            red = names.index("red")
+            return {tuple(map(int, line.split(",")[red:red + 3])) for line in file}
+
     def test_memory_changes_no_byte(self):
         store = self.build(DATA / "copc/lone-star.copc.laz")
         dated = dict(os.environ, SOURCE_DATE_EPOCH="86400")

@@ -3,6 +3,7 @@
 #include "pointfront/Collection/CollectionWriter.h"
 #include "pointfront/Collection/HeadTree.h"
 #include "pointfront/Disk/OutputFile.h"
+#include "pointfront/Store/HeldColours.h"
 #include "pointfront/Store/PointStore.h"
 #include "pointfront/Store/StoreWriter.h"
 #include "pointfront/Tiles/CollectionRecord.h"

@@ -5,6 +5,7 @@
 #include "pointfront/Disk/TemporaryFile.h"
 #include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Store/DescriptionSection.h"
+#include "pointfront/Store/HeldColours.h"
 #include "pointfront/Store/PreviewRecord.h"
 #include "pointfront/Threads/ThreadCrew.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"

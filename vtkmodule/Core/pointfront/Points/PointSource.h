@@ -60,8 +60,8 @@ struct SourceDescription
   std::vector<std::string> furtherFiles; ///< that it reads besides `path`
   /// Points come in the order of a tree, not as they were scanned.
   bool inTreeOrder = false;
-  /// 16-bit colours have 16 bits, however small the largest value is, because the writer of the
-  /// store decided so.
+  /// 16-bit colours have 16 bits, however small the largest value of these points is: the writer of
+  /// the store decided so, or others of the cloud need them.
   bool deepColours = false;
   /// Largest value of its 16-bit colours ("rgb"), if whoever opened the source knows it.
   std::optional<std::uint16_t> largestColour;

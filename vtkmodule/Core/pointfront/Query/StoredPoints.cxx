@@ -2,6 +2,7 @@
 
 #include "pointfront/Query/BoxRegion.h"
 #include "pointfront/Query/ChosenColumns.h"
+#include "pointfront/Store/HeldColours.h"
 #include "pointfront/Store/PreviewRecord.h"
 
 #include <cstdint>
@@ -29,12 +30,6 @@ bool fitsInSteps(const StoreDescription& store)
     fits = fits && low[axis] >= -most && high[axis] <= most;
   }
   return fits;
-}
-
-bool hasDeepColours(const AttributeSchema& schema)
-{
-  const auto colour = schema.find("rgb");
-  return colour && schema[*colour].type == ScalarType::UInt16;
 }
 } // namespace
 
@@ -93,7 +88,7 @@ StoredPoints::StoredPoints(std::shared_ptr<const StoredCloud> cloud, QueryPlan p
   description_.metadata = store.metadata;
   description_.splatRadiusBase = store.splatRadiusBase;
   description_.inTreeOrder = true;
-  description_.deepColours = hasDeepColours(description_.schema);
+  description_.deepColours = heldColours(store) == HeldColours::Sixteen;
   fitsSteps_ = fitsInSteps(store);
 }
 

@@ -2,6 +2,7 @@
 
 #include "pointfront/Ingest/CommonRadii.h"
 #include "pointfront/Points/SplatRadius.h"
+#include "pointfront/Points/WidenedColour.h"
 #include "pointfront/Store/ColumnStatistics.h"
 
 #include <algorithm>
@@ -13,12 +14,11 @@ namespace pointfront
 namespace
 {
 constexpr const char* colourName = "rgb";
-constexpr double mostEight = 255.0;
 
-/// Larger ones stay: a sample of a file may have missed that it has some.
+/// An end of a range: a whole number of 16 bits.
 double widened(double value)
 {
-  return value <= mostEight ? 257.0 * value : value;
+  return value <= largestOf8Bits ? widenedColour(static_cast<std::uint16_t>(value)) : value;
 }
 
 void widen(std::vector<std::byte>& values)
@@ -27,33 +27,11 @@ void widen(std::vector<std::byte>& values)
   {
     std::uint16_t value;
     std::memcpy(&value, values.data() + at, sizeof value);
-    value = value <= mostEight ? static_cast<std::uint16_t>(257u * value) : value;
+    value = widenedColour(value);
     std::memcpy(values.data() + at, &value, sizeof value);
   }
 }
 } // namespace
-
-HeldColours heldColours(const StoreDescription& cloud)
-{
-  const auto column = cloud.schema.find(colourName);
-  if (!column || *column >= cloud.ranges.size())
-  {
-    return HeldColours::None;
-  }
-  double largest = 0.0;
-  for (const std::array<double, 2>& ends : cloud.ranges[*column].components)
-  {
-    largest = std::max(largest, ends[1]);
-  }
-  const ScalarType type = cloud.schema[*column].type;
-  if (type != ScalarType::UInt16 || largest <= 0.0)
-  {
-    return type == ScalarType::UInt8 ? HeldColours::Eight : HeldColours::None;
-  }
-  const bool store = cloud.structure == "octree" || cloud.structure == "kdtree";
-  return largest > mostEight || (store && !cloud.rangesAreSampled) ? HeldColours::Sixteen
-                                                                   : HeldColours::Eight;
-}
 
 void TileColumns::recodeRadii(double ownBase, double commonBase)
 {

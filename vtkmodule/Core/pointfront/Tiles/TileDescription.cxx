@@ -3,6 +3,7 @@
 #include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Store/ColumnStatistics.h"
+#include "pointfront/Store/HeldColours.h"
 
 #include <glm/geometric.hpp>
 

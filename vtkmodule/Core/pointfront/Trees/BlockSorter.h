@@ -6,6 +6,7 @@
 #include "pointfront/Ingest/ClassLayers.h"
 #include "pointfront/Ingest/MemoryPlan.h"
 #include "pointfront/Ingest/RunSorter.h"
+#include "pointfront/Points/WidenedColour.h"
 #include "pointfront/Records/MortonOrder.h"
 #include "pointfront/Records/RecordPool.h"
 #include "pointfront/Records/TreeSpace.h"
@@ -21,7 +22,7 @@
 namespace pointfront
 {
 
-/// Colours of files with 8 bits among files with 16 bits: those records are multiplied by 257.
+/// Colours of files with 8 bits among files with 16 bits: those records are widened.
 struct ColourWidening
 {
   std::size_t offset = 0; ///< offset of the column in the record
@@ -34,7 +35,7 @@ struct ColourWidening
     {
       std::uint16_t value;
       std::memcpy(&value, record + offset + 2 * k, sizeof(value));
-      value = static_cast<std::uint16_t>(value * 257u);
+      value = widenedColour(value);
       std::memcpy(record + offset + 2 * k, &value, sizeof(value));
     }
   }

@@ -142,6 +142,49 @@ class Queries(ToolTest):
         self.assertEqual(got, [])
         self.assertIn("outside of the store", said)
 
+    def test_areas_meet_the_antimeridian(self):
+        # Points every 0.1 degrees on both sides, with longitudes that go on and with those that do
+        # not; the area, from 179.45 to -179.55, holds 10 x 10 of them.
+        part = {"east": (179.45, 180.0), "west": (-180.0, -179.55)}
+        parts = [[(low, -17.05), (high, -17.05), (high, -16.05), (low, -16.05)]
+                 for low, high in part.values()]
+        one = [(179.45, -17.05), (180.45, -17.05), (180.45, -16.05), (179.45, -16.05)]
+        wound = [(x - 360.0 * (x > 180.0), y) for x, y in one]
+        split = json.dumps({"type": "MultiPolygon", "coordinates": [
+            [[list(v) for v in ring + ring[:1]]] for ring in parts]})
+        places = [(1785 + i, -18.0 + 0.1 * j) for i in range(30) for j in range(30)]
+        stores = []
+        for name, longitude in (
+                ("on", lambda x: x / 10.0), ("back", lambda x: (x - 3600 * (x > 1800)) / 10.0),
+                ("before", lambda x: (x - 3600) / 10.0)):
+            las = write_las(self.folder / f"{name}.las",
+                            [(longitude(x), y, 0.0, 0, 0, 0) for x, y in places], 1e-6)
+            stores.append(self.folder / f"{name}.pfront")
+            self.succeed("build", las, "-o", stores[-1], "--assume-crs", "EPSG:4326")
+        for crs in ("EPSG:32760", "EPSG:4167"):  # UTM 60 S; degrees of New Zealand
+            stores.append(self.folder / f"{crs[5:]}.pfront")
+            self.succeed("build", self.folder / "on.las", "-o", stores[-1], "--assume-crs",
+                         "EPSG:4326", "--crs", crs)
+        line = "SRID=4326;LINESTRING (179.45 -16.5, 180.45 -16.5)"
+        for store in stores:
+            for text in (split, "SRID=4326;" + wkt([one])):
+                got, said = self.rows(store, "--polygon", self.write("x.txt", text))
+                self.assertEqual(len(got), 100, (store, text, said))
+            said = self.refuse(1, "export", store, "-o", self.folder / "z.csv", "--polygon",
+                               self.write("x.txt", geojson([wound]))).err
+            self.assertIn("from longitude 179.45 to -179.55", said)
+            self.assertIn("cut it there into two parts", said)
+        for store in stores[:3]:
+            got, _ = self.rows(store, "--corridor", self.write("x.txt", line), "--within", "0.02")
+            self.assertEqual(len(got), 10, store)
+            # Numbers that say no system are the store's own: degrees, too.
+            self.refuse(1, "export", store, "-o", self.folder / "z.csv", "--polygon",
+                        self.write("x.txt", wkt([wound])))
+        globe = [(-180.0, -90.0), (180.0, -90.0), (180.0, 90.0), (-180.0, 90.0)]
+        for store in stores[:3]:
+            got, _ = self.rows(store, "--polygon", self.write("x.txt", geojson([globe])))
+            self.assertEqual(len(got), 900, store)
+
     def test_wrong_ones_are_refused(self):
         store = self.build(DATA / "las/real/1.2-with-color.las")
         out = ("-o", self.folder / "x.las")

@@ -52,6 +52,19 @@ bool storeDouble(double value, ScalarType type, std::byte* to)
     });
 }
 
+/// An element of a pixel as the file has it.
+double elementOf(const RasterFile& file, const std::byte* from)
+{
+  const double read = asDouble(file.type, from);
+  if (file.spreadBits == 0)
+  {
+    return read;
+  }
+  const double most = std::ldexp(1.0, file.spreadBits) - 1.0;
+  const double value = std::round(read * most / (file.type == ScalarType::UInt8 ? 255.0 : 65535.0));
+  return file.spreadInverted ? most - value : value;
+}
+
 bool withoutData(const RasterFile& file, const std::byte* pixel)
 {
   const std::size_t bytes = sizeOf(file.type);
@@ -71,7 +84,7 @@ bool withoutData(const RasterFile& file, const std::byte* pixel)
                                        : *file.noData;
   for (int channel = 0; channel < file.channels; ++channel)
   {
-    const double value = asDouble(file.type, pixel + static_cast<std::size_t>(channel) * bytes);
+    const double value = elementOf(file, pixel + static_cast<std::size_t>(channel) * bytes);
     if (channel != file.alphaChannel && !std::isnan(value) && value != none)
     {
       return false;
@@ -214,12 +227,12 @@ RasterColumn::Outcome RasterColumn::storeValues(
       continue;
     }
     const std::byte* value = pixel + static_cast<std::size_t>(channel) * from;
-    if (file.type == attribute_.type)
+    if (file.type == attribute_.type && file.spreadBits == 0)
     {
       std::memcpy(values.data() + component * step, value, step);
     }
     else if (!storeDouble(
-               asDouble(file.type, value), attribute_.type, values.data() + component * step))
+               elementOf(file, value), attribute_.type, values.data() + component * step))
     {
       return Outcome::NotHeld;
     }

@@ -69,20 +69,26 @@ Result<void> readPixelLayout(RasterFile& file)
         "double are");
   }
   file.type = *type;
-  // OpenImageIO spreads fewer bits over 8, and inverts them.
+  // OpenImageIO spreads fewer bits over 8 or 16, and inverts them.
   const int ofType = 8 * static_cast<int>(sizeOf(file.type));
-  file.whiteIsZero =
-    file.whiteIsZero && spec.get_int_attribute("oiio:BitsPerSample", ofType) == ofType;
+  const int bits = spec.get_int_attribute("oiio:BitsPerSample", ofType);
+  const bool integers = file.type == ScalarType::UInt8 || file.type == ScalarType::UInt16;
+  if (bits < ofType && integers && !file.palette)
+  {
+    file.spreadBits = bits;
+    file.spreadInverted = file.whiteIsZero;
+  }
+  file.whiteIsZero = file.whiteIsZero && bits == ofType;
   if (file.palette && (file.use == RasterUse::Values || !file.colours.empty()))
   {
     file.channels = 1;
     file.alphaChannel = -1;
-    const int bits = spec.get_int_attribute("oiio:BitsPerSample", 8);
-    file.type = bits > 8 ? ScalarType::UInt16 : ScalarType::UInt8;
-    if (bits != 8 && bits != 16)
+    const int indexBits = spec.get_int_attribute("oiio:BitsPerSample", 8);
+    file.type = indexBits > 8 ? ScalarType::UInt16 : ScalarType::UInt8;
+    if (indexBits != 8 && indexBits != 16)
     {
       return makeError(Error::Kind::Unsupported,
-        file.path + ": palettes with " + std::to_string(bits) +
+        file.path + ": palettes with " + std::to_string(indexBits) +
           " bits a pixel are not read as indices, nor as colours if one index stands for no data; "
           "8 "
           "and 16 are");

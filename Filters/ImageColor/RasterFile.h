@@ -39,6 +39,8 @@ struct RasterFile
   bool tiff = false;
   bool palette = false; ///< a TIFF with a table of colours
   bool whiteIsZero = false; ///< grey as it stands in the file, to be inverted for colours
+  int spreadBits = 0; ///< bits of the file's elements, which are spread over `type`; 0: all it has
+  bool spreadInverted = false; ///< and inverted, because 0 is white
   /// Pixels are indices into this table, so that the one without data can be told from others of
   /// its colour. Empty: they are not.
   std::vector<std::array<std::uint8_t, 3>> colours;

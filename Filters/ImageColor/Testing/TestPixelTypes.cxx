@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 using namespace pointfront;
@@ -128,6 +129,73 @@ TEST(ImageValuesPass, WhereWhiteIsZeroColoursAreInvertedAndValuesAreNot)
       EXPECT_EQ(outcome.values("v"), (std::vector<double>{ c.stored, 0 })) << c.bits;
       EXPECT_EQ(outcome.values("rgb"), (std::vector<double>{ c.shown, c.shown, c.shown, 0, 0, 0 }))
         << c.bits;
+    }
+  }
+}
+
+/// A ramp of an image of few bits, as grey of 8; 0 is white if `whiteIsZero`.
+void expectRamp(WrittenTiff image)
+{
+  const int most = (1 << image.bits) - 1;
+  image.width = 9;
+  image.height = 5;
+  image.at(0, 5);
+  std::vector<glm::dvec3> positions;
+  std::vector<double> greys;
+  for (int i = 0; i < image.width * image.height; ++i)
+  {
+    image.values.push_back((i / image.width + i % image.width) % (most + 1));
+    const double value = image.values.back();
+    positions.emplace_back(i % image.width + 0.5, image.height - i / image.width - 0.5, 0.0);
+    greys.insert(greys.end(), 3, 255.0 / most * (image.whiteIsZero ? most - value : value));
+  }
+  const std::string path = image.write("few.tif");
+  const ColouredCloud outcome =
+    coloured(cloud(positions), { { "v", { path } }, { "rgb", { path } } });
+  ASSERT_EQ(outcome.error, "");
+  EXPECT_EQ(outcome.values("rgb"), greys);
+  EXPECT_EQ(outcome.values("v"), image.values);
+}
+
+TEST(ImageValuesPass, FewBitsHaveTheirOwnValueWithoutData)
+{
+  for (const bool white : { false, true })
+  {
+    WrittenTiff image;
+    image.width = 2;
+    image.height = 1;
+    image.bits = 4;
+    image.values = { 3, 9 };
+    image.noData = "3";
+    image.whiteIsZero = white;
+    image.at(0, 1);
+    const std::string path = image.write("fewholes.tif");
+    const ColouredCloud outcome = coloured(
+      cloud({ { 0.5, 0.5, 0 }, { 1.5, 0.5, 0 } }), { { "v", { path } }, { "rgb", { path } } });
+    ASSERT_EQ(outcome.error, "");
+    EXPECT_EQ(outcome.values("v"), (std::vector<double>{ 0, 9 }));
+    const double grey = white ? 102 : 153;
+    EXPECT_EQ(outcome.values("rgb"), (std::vector<double>{ 0, 0, 0, grey, grey, grey }));
+  }
+}
+
+TEST(ImageValuesPass, FewBitsAreColoursFromBlackToWhiteAndValuesAsTheyStand)
+{
+  for (const int bits : { 1, 2, 4 })
+  {
+    for (const bool white : { false, true })
+    {
+      for (const auto& [tile, rows] : { std::pair(0, 1), std::pair(0, 5), std::pair(16, 1) })
+      {
+        SCOPED_TRACE(std::to_string(bits) + (white ? " bits, white is 0, tile " : " bits, tile ") +
+          std::to_string(tile) + ", strips of " + std::to_string(rows));
+        WrittenTiff image;
+        image.bits = bits;
+        image.whiteIsZero = white;
+        image.tile = tile;
+        image.stripRows = rows;
+        expectRamp(image);
+      }
     }
   }
 }

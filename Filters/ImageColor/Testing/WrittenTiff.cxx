@@ -4,6 +4,7 @@
 
 #include <tiffio.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 
@@ -49,6 +50,37 @@ void putElement(std::vector<std::uint8_t>& bytes, int bits, int format, double v
     default:
       ADD_FAILURE() << "no such type: " << bits << " bits of format " << format;
   }
+}
+
+/// Elements of less than 8 bits, the first in the upper bits; a row begins with a byte.
+std::vector<std::uint8_t> packedRows(const WrittenTiff& image)
+{
+  const int across = image.width * image.channels;
+  const int rowBytes = (across * image.bits + 7) / 8;
+  std::vector<std::uint8_t> bytes(static_cast<std::size_t>(rowBytes * image.height));
+  for (int i = 0; i < across * image.height; ++i)
+  {
+    const int bit = i % across * image.bits;
+    const auto value = static_cast<unsigned>(image.values[static_cast<std::size_t>(i)]);
+    std::uint8_t& byte = bytes[static_cast<std::size_t>(i / across * rowBytes + bit / 8)];
+    byte = static_cast<std::uint8_t>(byte | value << (8 - image.bits - bit % 8));
+  }
+  return bytes;
+}
+
+/// The same in one tile, with zeros on the right and below.
+std::vector<std::uint8_t> packedTile(const WrittenTiff& image)
+{
+  EXPECT_TRUE(image.channels == 1 && image.width <= image.tile && image.height <= image.tile);
+  WrittenTiff whole = image;
+  whole.width = whole.height = image.tile;
+  whole.values.assign(static_cast<std::size_t>(image.tile * image.tile), 0.0);
+  for (int y = 0; y < image.height; ++y)
+  {
+    std::copy_n(
+      image.values.begin() + y * image.width, image.width, whole.values.begin() + y * image.tile);
+  }
+  return packedRows(whole);
 }
 
 void setGeoTags(TIFF* tiff, const WrittenTiff& image)
@@ -139,18 +171,24 @@ std::string WrittenTiff::write(const std::string& name) const
   EXPECT_EQ(values.size(), static_cast<std::size_t>(width * height * channels));
   setLayout(tiff, *this);
   setGeoTags(tiff, *this);
-  std::vector<std::uint8_t> bytes;
-  for (const double value : values)
+  std::vector<std::uint8_t> bytes = bits < 8 ? packedRows(*this) : std::vector<std::uint8_t>();
+  for (std::size_t i = 0; bits >= 8 && i < values.size(); ++i)
   {
-    putElement(bytes, bits, sampleFormat, value);
+    putElement(bytes, bits, sampleFormat, values[i]);
   }
-  if (tile > 0)
+  if (tile > 0 && bits < 8)
+  {
+    TIFFSetField(tiff, TIFFTAG_TILEWIDTH, tile);
+    TIFFSetField(tiff, TIFFTAG_TILELENGTH, tile);
+    TIFFWriteTile(tiff, packedTile(*this).data(), 0, 0, 0, 0);
+  }
+  else if (tile > 0)
   {
     writeTiles(tiff, *this, bytes);
   }
   else
   {
-    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, 1);
+    TIFFSetField(tiff, TIFFTAG_ROWSPERSTRIP, stripRows);
     const std::size_t row = bytes.size() / static_cast<std::size_t>(height);
     for (int y = 0; y < height; ++y)
     {

@@ -13,7 +13,7 @@ struct WrittenTiff
   int width = 4;
   int height = 3;
   int channels = 1;
-  int bits = 8;
+  int bits = 8; ///< fewer: 1, 2 or 4, in strips or one tile
   int sampleFormat = 1; ///< 1 unsigned, 2 signed, 3 floating point
   std::vector<double> values; ///< row by row, all channels; elements are converted
   std::vector<double> scale;
@@ -24,7 +24,8 @@ struct WrittenTiff
   bool alpha = false; ///< the last channel
   bool palette = false; ///< colour i is (255 - i, i, 7)
   bool whiteIsZero = false;
-  int tile = 0; ///< side of a tile, 0: strips of one row; a multiple of 16
+  int tile = 0; ///< side of a tile, 0: strips; a multiple of 16
+  int stripRows = 1; ///< rows of a strip
 
   /// North-up pixels of `size`, the corner at (x, y).
   WrittenTiff& at(double x, double y, double size = 1.0)

@@ -154,7 +154,8 @@ class Cloud:
         store; each attribute n, or n by its components, in its type, or float64 if it has a scale.
         "rgb" is as it is stored, too, of 16 bits where the store has 16; colors_as_stored=False
         gives bytes, as extract() and to_pyvista() do: the upper ones if any value has 16 bits.
-        The cloud's own attributes "position" and "id" are "position_" and "id_".
+        The cloud's own attributes "position" and "id" are "position_" and "id_"; `where` and
+        `attributes` take their own names.
         Nothing is copied: an array is the memory that the kernel read the points into.
         A region that lies beside the cloud is a PointFrontWarning.
         """

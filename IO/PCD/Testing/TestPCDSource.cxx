@@ -31,6 +31,36 @@ const RealPoints realFiles[] = { { "pcd/bunny.pcd", 397, "" }, { "pcd/milk.pcd",
   { "normals/chef.pcd", 5092, "normal float32x3" },
   { "classified/isprs_ground_truth/samp11-utm.pcd", 38010, "" } };
 
+TEST(PCDIntegers, OfSixtyFourBitsAreExact)
+{
+  const std::vector<std::int64_t> signs{ 9007199254740993, -9223372036854775807 };
+  const std::vector<std::uint64_t> plain{ 18446744073709551615u, 7 };
+  const std::string header = "VERSION .7\nFIELDS x y z a b\nSIZE 4 4 4 8 8\nTYPE F F F I U\n"
+                             "COUNT 1 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\nDATA ";
+  std::string rows;
+  std::string records;
+  const auto put = [&records](auto value)
+  { records.append(reinterpret_cast<const char*>(&value), sizeof value); };
+  for (std::size_t i = 0; i < 2; ++i)
+  {
+    rows += "1 2 3 " + std::to_string(signs[i]) + " " + std::to_string(plain[i]) + "\n";
+    put(1.0F);
+    put(2.0F);
+    put(3.0F);
+    put(signs[i]);
+    put(plain[i]);
+  }
+  for (const std::string& text : { "ascii\n" + rows, "binary\n" + records })
+  {
+    const auto source = openPoints(PCDFormat(), writeFile("wholes.pcd", header + text));
+    ASSERT_TRUE(source);
+    EXPECT_EQ(schemaText(*source), "a int64, b uint64");
+    const PointBatch all = readPoints(*source);
+    EXPECT_EQ(columnOf<std::int64_t>(*source, all, "a"), signs);
+    EXPECT_EQ(columnOf<std::uint64_t>(*source, all, "b"), plain);
+  }
+}
+
 TEST(RealPCDFile, GivesItsPointsAndAttributes)
 {
   const PCDFormat format;

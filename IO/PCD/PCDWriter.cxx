@@ -96,6 +96,14 @@ PCDWriter::PCDWriter(std::string path, Coordinates coordinates)
 {
 }
 
+std::vector<std::string> PCDWriter::findings() const
+{
+  std::vector<std::string> all = findings_;
+  const std::vector<std::string> rounded = RecordWriter::findings();
+  all.insert(all.end(), rounded.begin(), rounded.end());
+  return all;
+}
+
 CoordinateCoding PCDWriter::coordinates(const SinkDescription& description)
 {
   if (coordinates_ == Coordinates::Float64)

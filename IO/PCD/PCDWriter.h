@@ -26,7 +26,7 @@ public:
     Float64
   };
   explicit PCDWriter(std::string path, Coordinates coordinates = Coordinates::Float32);
-  std::vector<std::string> findings() const override { return findings_; }
+  std::vector<std::string> findings() const override;
 
 private:
   CoordinateCoding coordinates(const SinkDescription& description) override;

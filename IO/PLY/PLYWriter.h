@@ -10,7 +10,8 @@ namespace pointfront
 /// Writes points as binary little endian PLY: one element "vertex".
 /// Properties  x, y, z as double; rgb as red, green, blue; normal as nx, ny, nz; every other
 ///             attribute by its name, the components of an array as name[0], name[1] ... Types are
-///             kept but for those PLY lacks: 64-bit integers and scaled ones become double.
+///             kept but for those PLY lacks: 64-bit integers and scaled ones become double;
+///             findings() counts integers that it rounds.
 class PLYWriter final : public RecordWriter
 {
 public:

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 namespace pointfront
 {
@@ -28,6 +30,30 @@ void putFloating(double value, ScalarType type, std::byte* to)
   }
   const auto narrow = static_cast<float>(value);
   put(&narrow, sizeof narrow, to);
+}
+
+/// How many of the integers at equal distances float64 does not hold.
+std::uint64_t countInexact(
+  const std::byte* from, std::size_t stride, ScalarType type, std::size_t count)
+{
+  std::uint64_t inexact = 0;
+  visitScalar(type,
+    [&](auto zero)
+    {
+      using T = decltype(zero);
+      if constexpr (std::is_integral_v<T> && sizeof(T) > 4)
+      {
+        const double beyond = 2.0 * static_cast<double>(std::numeric_limits<T>::max() / 2 + 1);
+        for (std::size_t i = 0; i < count; ++i, from += stride)
+        {
+          T value;
+          std::memcpy(&value, from, sizeof value);
+          const auto number = static_cast<double>(value);
+          inexact += number < beyond && static_cast<T>(number) == value ? 0 : 1;
+        }
+      }
+    });
+  return inexact;
 }
 } // namespace
 
@@ -55,7 +81,7 @@ void RecordEncoder::addByte(std::uint8_t value)
   parts_.push_back(part);
 }
 
-void RecordEncoder::encodePart(const Part& part, const PointBatch& batch, std::byte* records) const
+void RecordEncoder::encodePart(const Part& part, const PointBatch& batch, std::byte* records)
 {
   std::byte* to = records + part.offset;
   if (!part.column)
@@ -77,6 +103,7 @@ void RecordEncoder::encodePart(const Part& part, const PointBatch& batch, std::b
     }
     return;
   }
+  rounded_[*part.column] += countInexact(from, attribute.bytes(), attribute.type, batch.size());
   std::vector<double> values(batch.size());
   gatherNumbers({ from, attribute.bytes(), attribute.type, false }, values.size(), values.data());
   for (std::size_t i = 0; i < values.size(); ++i, to += recordBytes_)
@@ -85,7 +112,7 @@ void RecordEncoder::encodePart(const Part& part, const PointBatch& batch, std::b
   }
 }
 
-void RecordEncoder::encode(const PointBatch& batch, std::vector<std::byte>& records) const
+void RecordEncoder::encode(const PointBatch& batch, std::vector<std::byte>& records)
 {
   const std::size_t begin = records.size();
   records.resize(begin + batch.size() * recordBytes_);
@@ -105,6 +132,21 @@ void RecordEncoder::encode(const PointBatch& batch, std::vector<std::byte>& reco
   {
     encodePart(part, batch, first);
   }
+}
+
+std::vector<std::string> RecordEncoder::findings() const
+{
+  std::vector<std::string> found;
+  for (std::size_t c = 0; c < rounded_.size(); ++c)
+  {
+    if (rounded_[c] > 0)
+    {
+      found.push_back(std::to_string(rounded_[c]) + " values of '" + schema_[c].name +
+        "' are rounded: they are written as float64, which does not hold all integers beyond "
+        "2^53. A LAS file keeps them.");
+    }
+  }
+  return found;
 }
 
 } // namespace pointfront

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
 namespace pointfront
@@ -23,7 +24,8 @@ struct CoordinateCoding
 /// Turns points into records of a binary file, little endian and packed: x, y, z, then the parts in
 /// the order in which they were added.
 /// Exactness  float64 holds every coordinate of a grid exactly as the store gives it. A component
-///            is copied; one with a scale or an offset becomes its world value as float64.
+///            is copied; one with a scale or an offset becomes its world value as float64. Integers
+///            of 64 bits that float64 does not hold are rounded and counted.
 /// Threads    one thread.
 class RecordEncoder
 {
@@ -32,6 +34,7 @@ public:
     : schema_(std::move(schema))
     , coordinates_(coordinates)
     , recordBytes_(3 * sizeOf(coordinates.type))
+    , rounded_(schema_.size(), 0)
   {
   }
 
@@ -45,7 +48,9 @@ public:
 
   std::size_t recordBytes() const { return recordBytes_; }
   /// Appends the records of all points of the batch.
-  void encode(const PointBatch& batch, std::vector<std::byte>& records) const;
+  void encode(const PointBatch& batch, std::vector<std::byte>& records);
+  /// Attributes of which encode() had to round integers: full sentences.
+  std::vector<std::string> findings() const;
 
 private:
   struct Part
@@ -56,12 +61,13 @@ private:
     std::uint8_t value = 0;
     std::size_t offset = 0; ///< in the record
   };
-  void encodePart(const Part& part, const PointBatch& batch, std::byte* records) const;
+  void encodePart(const Part& part, const PointBatch& batch, std::byte* records);
 
   AttributeSchema schema_;
   CoordinateCoding coordinates_;
   std::vector<Part> parts_;
   std::size_t recordBytes_;
+  std::vector<std::uint64_t> rounded_; ///< values of each column
 };
 
 } // namespace pointfront

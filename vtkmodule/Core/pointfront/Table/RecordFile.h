@@ -27,6 +27,7 @@ public:
 
   Result<void> append(const PointBatch& batch);
   Result<void> finish();
+  std::vector<std::string> findings() const { return encoder_.findings(); }
 
 private:
   RecordFile(RecordEncoder encoder, Header header, std::unique_ptr<OutputFile> file)

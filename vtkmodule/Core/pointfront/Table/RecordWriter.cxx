@@ -38,4 +38,9 @@ Result<void> RecordWriter::finish()
   return file_->finish();
 }
 
+std::vector<std::string> RecordWriter::findings() const
+{
+  return file_ ? file_->findings() : std::vector<std::string>();
+}
+
 } // namespace pointfront

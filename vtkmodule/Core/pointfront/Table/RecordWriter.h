@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -21,6 +22,7 @@ public:
   Result<void> begin(const SinkDescription& description) final;
   Result<void> append(const PointBatch& batch) final;
   Result<void> finish() final;
+  std::vector<std::string> findings() const override;
 
 protected:
   explicit RecordWriter(std::string path);

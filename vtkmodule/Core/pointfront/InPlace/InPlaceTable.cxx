@@ -278,6 +278,7 @@ Result<InPlaceTable> indexInPlace(const GridRecords& records, const RecordBox& b
   {
     return written.error();
   }
+  splats.finish();
   fillSpacing(splats, table.nodes);
   splats.fill(table.nodes);
   return table;

@@ -2,6 +2,7 @@
 
 #include "pointfront/InPlace/RunList.h"
 #include "pointfront/Trees/BuiltTree.h"
+#include "pointfront/Trees/CoveredArea.h"
 #include "pointfront/Trees/Sampler.h"
 
 #include <algorithm>
@@ -37,6 +38,7 @@ LeafSplats::LeafSplats(const QuadTree& tree, const GridRecords& records,
   : tree_(tree)
   , records_(records)
   , released_(std::move(released))
+  , scale_(grid.scale)
   , stepArea_(grid.scale.x * grid.scale.y)
   , splat_(spaceOf(grid))
 {
@@ -44,8 +46,7 @@ LeafSplats::LeafSplats(const QuadTree& tree, const GridRecords& records,
   std::vector<NodeIndex> leaves;
   for (NodeIndex i = 0; i < nodes.size(); ++i)
   {
-    const bool apart = nodes[i].parent == noNode || !nodes[nodes[i].parent].sliced;
-    if (nodes[i].leaf() && apart && nodes[i].points <= mostPoints)
+    if (nodes[i].leaf() && nodes[i].points <= mostPoints)
     {
       leaves.push_back(i);
     }
@@ -55,14 +56,21 @@ LeafSplats::LeafSplats(const QuadTree& tree, const GridRecords& records,
   {
     measured_.push_back(leaves[(2 * m + 1) * leaves.size() / (2 * count)]);
   }
-  ratios_.resize(count, 0.0);
+  radii_.resize(count, 0.0);
+  lifts_.resize(count, 0.0);
+}
+
+bool LeafSplats::isSlice(NodeIndex node) const
+{
+  const NodeIndex parent = tree_.nodes()[node].parent;
+  return parent != noNode && tree_.nodes()[parent].sliced;
 }
 
 double LeafSplats::pointSpacing(NodeIndex node) const
 {
   const QuadNode& from = tree_.nodes()[node];
   const double drawn = std::ldexp(static_cast<double>(from.points), -from.logStep);
-  return std::sqrt(from.area * stepArea_ / drawn);
+  return std::sqrt(liftOf_[node] * from.area * stepArea_ / drawn);
 }
 
 double LeafSplats::spacing(NodeIndex node) const
@@ -90,40 +98,73 @@ void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
     }
     released_(run.first, run.first + run.count);
   }
+  const auto m = static_cast<std::size_t>(found - measured_.begin());
+  const CoveredArea area = CoveredArea::of(positions, scale_);
+  const double flat = std::max(area.fromAbove, tree_.nodes()[node].area * stepArea_);
+  lifts_[m] = flat > 0.0 ? std::max(1.0, area.surface / flat) : 1.0;
+  if (isSlice(node)) // its points lie over those of other slices
+  {
+    return;
+  }
   const RecordSpan view{ reinterpret_cast<const std::byte*>(positions.data()),
     sizeof(TreePosition) };
   const std::vector<std::uint32_t> order = mortonOrder(view, positions.size());
-  const float radius = splat_.measure(view, order);
-  ratios_[static_cast<std::size_t>(found - measured_.begin())] = radius / pointSpacing(node);
+  radii_[m] = splat_.measure(view, order);
   points_ += order.size();
   places_ += placesOf(view, order);
+}
+
+double LeafSplats::nearby(const std::vector<double>& ofMeasured, NodeIndex leaf) const
+{
+  const auto behind = static_cast<std::size_t>(
+    std::lower_bound(measured_.begin(), measured_.end(), leaf) - measured_.begin());
+  const bool itself = behind < measured_.size() && measured_[behind] == leaf;
+  double sum = 0.0;
+  int count = 0;
+  for (std::size_t m = behind - std::min<std::size_t>(behind, 1);
+       m < std::min(behind + 1, ofMeasured.size()); ++m)
+  {
+    if (ofMeasured[m] > 0.0 && (!itself || m == behind))
+    {
+      sum += ofMeasured[m];
+      ++count;
+    }
+  }
+  return count > 0 ? sum / count : 0.0;
+}
+
+void LeafSplats::finish()
+{
+  const std::vector<QuadNode>& nodes = tree_.nodes();
+  liftOf_.assign(nodes.size(), 1.0);
+  for (std::size_t i = nodes.size(); i-- > 0;) // children come behind their parent
+  {
+    const QuadNode& node = nodes[i];
+    double surface = 0.0;
+    double area = 0.0;
+    for (NodeIndex c = node.firstChild; c < node.firstChild + node.childCount; ++c)
+    {
+      surface += liftOf_[c] * nodes[c].area;
+      area += nodes[c].area;
+    }
+    const double lift = node.leaf() ? nearby(lifts_, static_cast<NodeIndex>(i))
+      : area > 0.0                  ? surface / area
+                                    : 0.0;
+    liftOf_[i] = std::max(1.0, lift);
+  }
+  for (std::size_t m = 0; m < measured_.size(); ++m)
+  {
+    const double spacing = pointSpacing(measured_[m]);
+    radii_[m] = spacing > 0.0 ? radii_[m] / spacing : 0.0;
+  }
 }
 
 void LeafSplats::fill(std::vector<Node>& nodes) const
 {
   for (NodeIndex i = 0; i < nodes.size(); ++i)
   {
-    if (!nodes[i].leaf())
-    {
-      nodes[i].splatRadius = toFloat(randomRatio * spacing(i));
-      continue;
-    }
-    // The measured leaf before, and the one behind.
-    const auto behind = static_cast<std::size_t>(
-      std::lower_bound(measured_.begin(), measured_.end(), i) - measured_.begin());
-    double sum = 0.0;
-    int count = 0;
-    for (std::size_t m = behind - std::min<std::size_t>(behind, 1);
-         m < std::min(behind + 1, ratios_.size()); ++m)
-    {
-      const bool itself = behind < measured_.size() && measured_[behind] == i;
-      if (ratios_[m] > 0.0 && (!itself || m == behind))
-      {
-        sum += ratios_[m];
-        ++count;
-      }
-    }
-    nodes[i].splatRadius = count > 0 ? toFloat(sum / count * pointSpacing(i)) : 0.0f;
+    nodes[i].splatRadius = nodes[i].leaf() ? toFloat(nearby(radii_, i) * pointSpacing(i))
+                                           : toFloat(randomRatio * spacing(i));
   }
 }
 

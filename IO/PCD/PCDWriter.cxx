@@ -1,5 +1,6 @@
 #include "PCDWriter.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Table/FieldRole.h"
 
 #include <glm/common.hpp>
@@ -148,9 +149,12 @@ namespace
 /// A line of the header for coordinates that are not relative to zero.
 std::string originLine(const glm::dvec3& origin)
 {
-  char text[128];
-  std::snprintf(text, sizeof text, "# ORIGIN %.17g %.17g %.17g\n", origin.x, origin.y, origin.z);
-  return origin == glm::dvec3(0.0) ? std::string() : text;
+  std::string line = "# ORIGIN";
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    line += ' ' + numberText(origin[axis], 17);
+  }
+  return origin == glm::dvec3(0.0) ? std::string() : line + '\n';
 }
 } // namespace
 

@@ -2,12 +2,14 @@
 
 #include "Credentials.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Disk/SmallFile.h"
 
 #include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <sstream>
+#include <string_view>
 #include <utility>
 
 namespace pointfront
@@ -219,9 +221,9 @@ RemoteOptions RemoteOptions::ofEnvironment()
   RemoteOptions options;
   if (const std::string text = setting("POINTFRONT_REMOTE_TIMEOUT"); !text.empty())
   {
-    char* end = nullptr;
-    const double seconds = std::strtod(text.c_str(), &end);
-    if (*end == '\0' && seconds >= 0.001 && seconds < 1e6)
+    std::string_view rest(text);
+    const double seconds = takeNumber(rest);
+    if (rest.empty() && seconds >= 0.001 && seconds < 1e6)
     {
       options.timeLimit = std::chrono::milliseconds(static_cast<long>(1000.0 * seconds));
     }

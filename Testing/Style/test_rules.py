@@ -192,11 +192,13 @@ class RulesTest(unittest.TestCase):
             "IO/LAS/A.cxx": "std::toupper(c);\nstd::isspace(c);\nstd::isdigit(c);\n",
             "IO/LAS/B.cxx": "// std::tolower(c)\nisAsciiSpace(c);\n",
             "IO/LAS/Testing/TestA.cxx": "std::isalnum(c);\n",
-            "CommandLine/C.cxx": "std::isalpha(c);\n",
+            "CommandLine/C.cxx": "std::isalpha(c);\nstd::strtod(text, &end);\n",
+            "IO/Remote/D.cxx": "std::strtod(text, &end);\ntakeNumber(text);\n",
         }
         self.assertEqual(
             self.faults("Letters", tree),
-            [("CommandLine/C.cxx", 1), ("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2)],
+            [("CommandLine/C.cxx", 1), ("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2),
+             ("IO/Remote/D.cxx", 1)],
         )
 
     def test_links(self):

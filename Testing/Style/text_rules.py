@@ -203,13 +203,19 @@ LOCALE = re.compile(
 )
 
 
+# A program's own locale may write a comma in numbers; the tool never sets one.
+POINT = re.compile(r"\b(strtod|stod|strtof|stof|atof)\b")
+
+
 def letters(files):
-    """Letters have classes and cases of ASCII, not those of the process's locale."""
+    """Letters and numbers are read as ASCII has them, not as the process's locale does."""
     for file in files:
         if file.is_cpp and not file.in_tests:
             for number, line in enumerate(file.code_lines(), start=1):
                 if LOCALE.search(line):
                     yield file.path, number, "asks the locale; Base/LetterCase.h asks ASCII"
+                elif POINT.search(line) and file.folders[0] != "CommandLine":
+                    yield file.path, number, "asks the locale; Base/NumberText.h does not"
 
 
 LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")

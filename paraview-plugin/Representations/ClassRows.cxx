@@ -2,6 +2,7 @@
 
 #include "PointLook.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Style/StyleSheet.h"
 #include "pointfront/Style/TechniqueNames.h"
 
@@ -9,6 +10,7 @@
 
 #include <cstdlib>
 #include <optional>
+#include <string_view>
 
 namespace pointfront
 {
@@ -24,12 +26,12 @@ int classOf(const std::string& code)
                                                                        : -1;
 }
 
-/// From 0 on; nothing: the text is no such number.
+/// From 0 on, which an empty text is; nothing: the text is no such number.
 std::optional<double> numberOf(const std::string& text, double most)
 {
-  char* end = nullptr;
-  const double number = std::strtod(text.c_str(), &end);
-  return *end == '\0' && number >= 0.0 && number <= most ? std::optional<double>(number)
+  std::string_view rest(text);
+  const double number = text.empty() ? 0.0 : takeNumber(rest);
+  return rest.empty() && number >= 0.0 && number <= most ? std::optional<double>(number)
                                                          : std::nullopt;
 }
 
@@ -60,11 +62,11 @@ void ClassRows::add(const std::string& code, const std::string& technique,
   {
     return; // a row that is not filled in yet
   }
-  char* end = nullptr;
-  const double pixels = std::strtod(size.c_str(), &end);
+  std::string_view rest(size);
+  const double pixels = takeNumber(rest);
   const bool known =
     technique.empty() || technique == "hidden" || namedTechnique(technique).has_value();
-  if ((number < 0 && !all) || !known || *end != '\0' || (!size.empty() && !(pixels > 0.0)))
+  if ((number < 0 && !all) || !known || !rest.empty() || (!size.empty() && !(pixels > 0.0)))
   {
     wrong_ = "the class style \"" + code + "\", \"" + technique + "\", \"" + colour + "\", \"" +
       size + "\" is none: a code of 0 to 255, hidden or one of " + namedTechniques() +

@@ -1,6 +1,7 @@
 #include "pointfront/Disk/FarSettings.h"
 
 #include "pointfront/Base/LetterCase.h"
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Disk/ByteOpeners.h"
 
 #include <algorithm>
@@ -56,7 +57,6 @@ std::string decoded(std::string_view text)
 /// Takes "name=value" into the settings.
 Result<void> take(const std::string& name, const std::string& value, FarSettings& settings)
 {
-  char* end = nullptr;
   if (name == "offline" && (value == "0" || value == "1"))
   {
     settings.offline = value == "1";
@@ -74,9 +74,11 @@ Result<void> take(const std::string& name, const std::string& value, FarSettings
     }
     settings.cacheBytes = *bytes;
   }
-  else if (const double seconds = std::strtod(value.c_str(), &end); name == "timeout")
+  else if (name == "timeout")
   {
-    settings.timeoutSeconds = end != value.c_str() && *end == '\0' ? seconds : -1.0;
+    std::string_view rest(value);
+    const double seconds = takeNumber(rest);
+    settings.timeoutSeconds = rest.empty() && seconds == seconds ? seconds : -1.0;
   }
   else
   {
@@ -138,9 +140,7 @@ Result<std::string> FarSettings::named(const std::string& address) const
   }
   if (timeoutSeconds)
   {
-    char number[32];
-    std::snprintf(number, sizeof number, "%.9g", *timeoutSeconds);
-    add("timeout", number);
+    add("timeout", numberText(*timeoutSeconds, 9));
   }
   const std::string plain = withoutFarSettings(address);
   const std::size_t fragment = std::min(plain.find('#'), plain.size()); // such as "#epoch=2024"
@@ -170,13 +170,12 @@ Result<FarSettings> FarSettings::parse(std::string_view text)
 
 Result<std::uint64_t> cacheBytesOf(const std::string& text)
 {
-  char* end = nullptr;
-  const double bytes = std::strtod(text.c_str(), &end);
-  const std::string unit = lowered(std::string_view(end, *end == '\0' ? 0 : 1));
+  std::string_view rest(text);
+  const double bytes = takeNumber(rest);
+  const std::string unit = lowered(rest.substr(0, 1));
   const std::size_t power = unit.empty() ? 0 : std::string("?kmgt").find(unit, 1);
   const double all = bytes * double(std::uint64_t(1) << (10 * std::min<std::size_t>(power, 5)));
-  if (end == text.c_str() || power > 4 || (power > 0 && end[1] != '\0') ||
-    !(all >= 0.0 && all < 9e18))
+  if (power > 4 || rest.size() > 1 || !(all >= 0.0 && all < 9e18))
   {
     return wrong("'" + text + "' is no size of a cache: 512M, 4G; 0 for none");
   }

@@ -1,12 +1,12 @@
 #include "pointfront/Quality/QualityChoice.h"
 
 #include "pointfront/Base/NearestName.h"
+#include "pointfront/Base/NumberText.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <string_view>
 #include <vector>
 
@@ -87,13 +87,9 @@ QualityChoice told(QualityChoice choice, const std::string& asked)
 /// The number that begins `text`, if `unit` is all that follows.
 std::optional<double> numberOf(const std::string& text, const char* unit)
 {
-  char* end = nullptr;
-  const double value = std::strtod(text.c_str(), &end);
-  const bool sound = end != text.c_str() &&
-    end ==
-      text.c_str() + text.size() - std::min(text.size(), std::char_traits<char>::length(unit)) &&
-    std::string_view(end) == unit && std::isfinite(value);
-  return sound ? std::optional<double>(value) : std::nullopt;
+  std::string_view rest(text);
+  const double value = takeNumber(rest);
+  return rest == unit && std::isfinite(value) ? std::optional<double>(value) : std::nullopt;
 }
 
 } // namespace

@@ -140,7 +140,7 @@ void highlight(const FrameShading& shading, SoftwareTarget& target)
   }
   for (std::size_t number = 0; number < shading.highlights.size(); ++number)
   {
-    if (shading.highlights[number].haloPx > 0.0f)
+    if (!target.keepPoints && shading.highlights[number].haloPx > 0.0f) // a halo is no point
     {
       drawHalo(shading.highlights[number], static_cast<std::uint8_t>(number + 1), target);
     }

@@ -246,7 +246,7 @@ SplatTextures SplatComposition::highlight(
   for (int number = 0; number < count; ++number)
   {
     const FrameHighlight& one = highlights[static_cast<std::size_t>(number)];
-    if (one.haloPx > 0.0f)
+    if (!ids_ && one.haloPx > 0.0f) // a halo is no point
     {
       picture = drawRim(picture, one, number + 1);
     }
@@ -262,8 +262,8 @@ SplatTextures SplatComposition::drawRim(
     program->SetUniformi("mark", mark);
     program->SetUniformi("reach", static_cast<int>(std::ceil(look.haloPx)));
   };
-  const SplatTextures rows = draw(fragmentOf(Step::RowsOfRim, 1, ids_), {}, base, setReach);
-  return draw(fragmentOf(Step::Rim, 1, ids_), { { "acrossMarks", rows.depths } }, base,
+  const SplatTextures rows = draw(fragmentOf(Step::RowsOfRim, 1, false), {}, base, setReach);
+  return draw(fragmentOf(Step::Rim, 1, false), { { "acrossMarks", rows.depths } }, base,
     [&](vtkShaderProgram* program)
     {
       setReach(program);

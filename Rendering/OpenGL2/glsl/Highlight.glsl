@@ -27,6 +27,7 @@ void main()
 
 #else
 // The rim of one of them, rows first: so its cost grows with its width and not with the square.
+// Pictures of ids have none: a pixel of it is no point.
 uniform int mark;
 uniform int reach; // pixels that the rim is wide at most
 
@@ -52,9 +53,6 @@ void main()
   }
   gl_FragData[0] = vec4(0.0);
   gl_FragData[1] = vec4(across, 0.0, 0.0, 0.0);
-#if POINTFRONT_IDS
-  gl_FragData[2] = vec4(0.0);
-#endif
 }
 
 #else
@@ -88,9 +86,6 @@ void main()
   }
   gl_FragData[0] = colour;
   gl_FragData[1] = vec4(own, 0.0, 0.0);
-#if POINTFRONT_IDS
-  gl_FragData[2] = texelFetch(baseIds, at, 0);
-#endif
 }
 #endif
 #endif

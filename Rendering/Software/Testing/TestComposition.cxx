@@ -328,6 +328,19 @@ TEST(Composition, AHighlightTintsAndHasARimOnWhatIsBehind)
   EXPECT_EQ(at(picture, 18, 32), (Bytes{ 0, 0, 200, 255 })) << "beyond it";
 }
 
+/// A pick in a halo finds what lies behind it.
+TEST(Composition, APictureOfPointsHasNoHalo)
+{
+  Sheets sheets;
+  sheets.add(2.0, red, 0.25)->highlight = 1;
+  sheets.scene.plan.shading.highlights = { { { 1.0f, 1.0f, 1.0f }, 3.0f, 0.5f } };
+  ASSERT_LT(depthAt(sheets.draw(), 22, 32), 3.0f) << "rim over nothing";
+  const SoftwareTarget points = sheets.draw(nullptr, nullptr, true);
+  EXPECT_GT(depthAt(points, 22, 32), 1e30f);
+  EXPECT_EQ(points.points[32 * size + 22].store, PixelPoint::nothing);
+  EXPECT_EQ(at(points, 32, 32), (Bytes{ 228, 128, 128, 255 })) << "its points are tinted";
+}
+
 TEST(Composition, IsTheSameForAnyThreadsAndInBands)
 {
   Sheets sheets;

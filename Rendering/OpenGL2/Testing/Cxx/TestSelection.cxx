@@ -1,4 +1,5 @@
 #include "Scene.h"
+#include "vtkPointFrontStyle.h"
 
 #include <vtkCellArray.h>
 #include <vtkHardwareSelector.h>
@@ -194,6 +195,47 @@ TEST(Selection, FindsTheNearestWhereALayerAboveClearsDepths)
       lost += expected[i] != 0 && found[i] != expected[i] ? 1 : 0;
     }
     EXPECT_EQ(lost, 0) << "back end " << backend;
+  }
+}
+
+/// A halo is decoration: a pixel that shows nothing else is nobody's.
+TEST(Selection, FindsNothingInAHalo)
+{
+  for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
+  {
+    NumberedSheet scene;
+    scene.mapper->SetBackend(backend);
+    vtkNew<vtkPointFrontStyle> style;
+    scene.mapper->SetStyle(style);
+    const std::string points =
+      R"({"default": {"color": "rgb", "size": {"mode": "fixed", "px": 2}})";
+    ASSERT_TRUE(style->LoadJSON(points + "}"));
+    const std::vector<int> shown = scene.shown();
+    const std::string halo =
+      points + R"(, "highlight": [{"class": 0, "color": "#00ff00", "halo_px": 10, "tint": 0}]})";
+    ASSERT_TRUE(style->LoadJSON(halo));
+    const Picture picture = scene.draw();
+    int rim = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+    {
+      rim += shown[i] == 0 && picture.rgb[3 * i + 1] == 255 ? 1 : 0;
+    }
+    EXPECT_GT(rim, 3000) << "back end " << backend;
+    const std::string what = "a halo, back end " + std::to_string(backend);
+    scene.expect(shown, what.c_str());
+    scene.draw();
+    vtkNew<vtkHardwareSelector> selector;
+    selector->SetRenderer(scene.renderer);
+    selector->SetFieldAssociation(vtkDataObject::FIELD_ASSOCIATION_CELLS);
+    selector->SetArea(0, 0, 299, 199);
+    ASSERT_TRUE(selector->CaptureBuffers());
+    int props = 0;
+    for (unsigned i = 0; i < shown.size(); ++i)
+    {
+      const unsigned pixel[2] = { i % 300, i / 300 };
+      props += selector->GetPixelInformation(pixel).Prop == scene.actor.Get() && shown[i] == 0;
+    }
+    EXPECT_EQ(props, 0) << what;
   }
 }
 

@@ -218,26 +218,39 @@ Result<FrameRecord> SoftwareScene::render(bool complete)
 struct SoftwareScene::DrawnNodes
 {
   std::vector<std::unordered_map<NodeIndex, std::uint32_t>> points; ///< by node, for each store
+  std::vector<std::vector<std::uint64_t>> layerPoints; ///< likewise by layer
 
-  void add(std::size_t store, const FrontDelta& delta)
+  explicit DrawnNodes(std::size_t stores)
+    : points(stores)
+    , layerPoints(stores)
+  {
+  }
+  void add(std::size_t store, const Hierarchy& hierarchy, const FrontDelta& delta)
   {
     for (const DrawItem& item : delta.draw)
     {
       std::uint32_t& most = points[store][item.node];
-      most = std::max(most, item.pointCount);
+      if (item.pointCount > most)
+      {
+        const std::size_t layer = hierarchy.node(item.node).layer;
+        std::vector<std::uint64_t>& layers = layerPoints[store];
+        layers.resize(std::max(layers.size(), layer + 1));
+        layers[layer] += item.pointCount - most;
+        most = item.pointCount;
+      }
     }
   }
-  void countIn(FrameRecord& frame) const
+  void countIn(const DrawnStores& stores, FrameRecord& frame) const
   {
     frame.points = 0;
     frame.nodes = 0;
-    for (const auto& store : points)
+    frame.classPoints.clear();
+    for (std::size_t i = 0; i < points.size(); ++i)
     {
-      frame.nodes += static_cast<std::int64_t>(store.size());
-      for (const auto& [node, count] : store)
-      {
-        frame.points += count;
-      }
+      const std::vector<std::uint64_t>& layers = layerPoints[i];
+      frame.nodes += static_cast<std::int64_t>(points[i].size());
+      frame.points += std::accumulate(layers.begin(), layers.end(), std::int64_t(0));
+      countClasses(layers, stores[i].cloud()->description(), frame);
     }
   }
 };
@@ -258,8 +271,7 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
   FrameRecord whole;
   whole.complete = true;
   whole.rasteriseMilliseconds = 0.0;
-  DrawnNodes drawn;
-  drawn.points.resize(stores_.count());
+  DrawnNodes drawn(stores_.count());
   reads_.since();
   for (int top = camera_.height; top > 0; top -= memory_->bandRows())
   {
@@ -292,7 +304,7 @@ Result<FrameRecord> SoftwareScene::renderInBands(const std::string& path)
   {
     return written.error();
   }
-  drawn.countIn(whole);
+  drawn.countIn(stores_, whole);
   whole.milliseconds = millisecondsSince(begin);
   whole.threadReadBytes = reads_.since();
   return whole;
@@ -311,7 +323,7 @@ Result<FrameRecord> SoftwareScene::renderBand(
   rasteriser.release(); // it holds what it has drawn, and the next band needs the memory
   for (std::size_t i = 0; i < stores_.count(); ++i)
   {
-    drawn.add(i, stores_[i].last());
+    drawn.add(i, *stores_[i].cloud()->hierarchy(), stores_[i].last());
   }
   if (const Result<void> fine = stores_.outcome(); !fine)
   {

@@ -46,6 +46,17 @@ class Bands(SceneTest):
             self.assertGreaterEqual(of_bands["points_drawn"], statistics["points_drawn"])
             self.assertLessEqual(of_bands["points_drawn"], 110000)
 
+    def test_points_of_classes_add_up(self):
+        self.store = self.folder / "layers.pfront"
+        self.succeed("build", TRIM, "-o", self.store, "--layers", "class")
+        for memory in ("1G", "24M"):
+            _, statistics = self.drawn(memory, "1600x1200", "--view", "iso", "--error", "0.01")
+            drawn = {c["class"]: c["points_drawn"] for c in statistics["classes"]}
+            self.assertEqual(sum(drawn.values()), statistics["points_drawn"], memory)
+            self.assertLessEqual(drawn[1], 83893)
+            self.assertLessEqual(drawn[2], 26107)
+            self.assertGreater(min(drawn.values()), 20000)
+
     def test_memory_holds_the_picture(self):
         limit = 48 << 20
         size = "6000x5000" if SLOWNESS == 1 else "3000x2000"

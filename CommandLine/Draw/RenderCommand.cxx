@@ -119,7 +119,7 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
 {
   if (frames_ == 0 && last.complete && !last.showsPoints)
   {
-    return noPointShown();
+    return last.points == 0 && last.limitedByGpu ? noNodeOnGpu() : noPointShown();
   }
   if (frames_ == 0 && !last.complete)
   {

@@ -44,6 +44,13 @@ Error noPointShown()
     "look elsewhere (--camera, --view), or choose other points");
 }
 
+Error noNodeOnGpu()
+{
+  return makeError(Error::Kind::BadArgument,
+    "no point is in the picture, which is not written: --gpu-memory has no room for a single node; "
+    "raise it");
+}
+
 void countClasses(
   const std::vector<std::uint64_t>& layerPoints, const StoreDescription& store, FrameRecord& frame)
 {

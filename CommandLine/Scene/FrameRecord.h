@@ -51,6 +51,8 @@ struct FrameRecord
 
 /// A complete picture without a point (FrameRecord::showsPoints) is none.
 Error noPointShown();
+/// Nor is one for which --gpu-memory is too small: a node takes 4,096 points' room at least.
+Error noNodeOnGpu();
 
 /// Adds the points of a store's layers, where each layer is a class.
 void countClasses(

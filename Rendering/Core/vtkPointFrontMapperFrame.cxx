@@ -307,6 +307,10 @@ void vtkPointFrontMapper::FinishFrame(
     view.Plan ? view.Plan->layerPoints() : std::vector<std::uint64_t>(); // wanted of each
   statistics.technique = view.Plan ? techniqueOf(*view.Plan) : std::string();
   statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
+  // The front counts on room for one node at least.
+  const bool noRoom = this->GPUMemoryBudget > 0 && statistics.gpuBytes == 0 && points == 0 &&
+    !uploadsLeft && view.Plan && view.Plan->pointCount() > 0;
+  statistics.limitedByGpuMemory = statistics.limitedByGpuMemory || noRoom;
   statistics.complete = view.Complete;
   view.Statistics = statistics;
   statistics = this->Internals->Views.statisticsOf(renderer);

@@ -1,8 +1,9 @@
 """Shares of the budgets for classes: --class-share and budget_share of a style."""
 
+import json
 import unittest
 
-from scenes import TRIM, SceneTest
+from scenes import BACKEND, TRIM, SceneTest
 
 
 class ClassShares(SceneTest):
@@ -36,6 +37,34 @@ class ClassShares(SceneTest):
         self.assertIn("a tree for each class", outcome.err)
         _, statistics = self.statistics(plain)
         self.assertEqual(statistics["classes"], [])
+
+
+@unittest.skipIf(BACKEND == "software", "takes no GPU memory")
+class GPUMemory(SceneTest):
+    """--gpu-memory for fewer nodes than there are classes."""
+
+    def test_what_fits_is_drawn_and_the_limit_is_told(self):
+        stores = {layers: self.folder / f"{layers}.pfront" for layers in ("class", "none")}
+        for layers, store in stores.items():
+            self.succeed("build", TRIM, "-o", store, "--layers", layers)
+        path, stats = self.folder / "x.png", self.folder / "stats.json"
+        drawn = {}
+        for layers, store in stores.items():
+            for memory in ("140K", "200K"):  # room for a node
+                outcome = self.succeed("render", store, "-o", path, "--error", "0.1", "--stats",
+                                       stats, "--gpu-memory", memory)
+                statistics = json.loads(stats.read_text())
+                self.assertEqual(statistics["limited_by"], ["gpu-memory"])
+                self.assertIn("raise --gpu-memory\n", outcome.err)
+                self.assertEqual(statistics["nodes_drawn"], 1)
+                self.assertLessEqual(statistics["gpu_bytes"], 140 << 10)
+                drawn[layers] = statistics["points_drawn"]
+        self.assertGreater(drawn["class"], 0.5 * drawn["none"])
+        path.unlink()
+        for store in stores.values():
+            outcome = self.refuse(1, "render", store, "-o", path, "--gpu-memory", "20K")
+            self.assertIn("--gpu-memory", outcome.err)
+            self.assertFalse(path.exists())
 
 
 if __name__ == "__main__":

@@ -251,6 +251,49 @@ TEST_P(LayerLimitsOf, SharesOfMoreThanAllAreCutDown)
   EXPECT_EQ(l.drawn(1), l.drawn(2));
 }
 
+/// A node takes whole slots of GPU memory. Where there are fewer than layers, those layers that get
+/// one show as much as if all had one, and the largest get them.
+TEST(LayerLimits, WhereNotAllHaveASlotThoseThatDoAreAsFineAsWithSlotsForAll)
+{
+  const DemandCurve nobody;
+  for (const double share : { 0.0, 0.2 })
+  {
+    SCOPED_TRACE(share);
+    Layers all(Way::Front, 5);
+    std::vector<Node> nodes;
+    for (NodeIndex n = 0; n < all.tree->nodeCount(); ++n)
+    {
+      nodes.push_back(all.tree->node(n));
+    }
+    nodes.front().pointCount = 5;
+    const auto tree = std::make_shared<HierarchyTable>(nodes, all.tree->roots(), Refinement::Add);
+    const auto drawWith = [&](Layers& l, std::uint64_t slots)
+    {
+      l.tree = tree;
+      l.selection = selectionOf(Way::Front, tree);
+      l.limits.sharedSlots = { slots, &nobody };
+      for (LayerLimits& layer : l.limits.layers)
+      {
+        layer.share = share;
+      }
+      l.draw();
+    };
+    drawWith(all, 5);
+    EXPECT_EQ(all.delta().slotsDrawn, 5u);
+    EXPECT_GT(all.drawn(1), 100u);
+    for (const std::uint64_t slots : { 1, 3 })
+    {
+      Layers few(Way::Front, 5);
+      drawWith(few, slots);
+      EXPECT_EQ(few.delta().slotsDrawn, slots);
+      EXPECT_EQ(few.delta().pointsDrawn, slots * all.drawn(1));
+      EXPECT_EQ(few.drawn(0), 0u) << "it has five points";
+      EXPECT_TRUE(few.delta().limitedByGpu);
+      EXPECT_FALSE(few.delta().limitedByBudget);
+    }
+  }
+}
+
 /// Random factors, shares, switches, budgets and views: never beyond the budget, a layer that is
 /// left finer than its share allows never costs another one that has less than its own.
 TEST_P(LayerLimitsOf, SharesAndBudgetsHoldOnEveryPath)

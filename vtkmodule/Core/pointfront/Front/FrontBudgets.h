@@ -112,16 +112,24 @@ public:
   /// Takes the points that a node draws, as many as the budget allows.
   std::uint32_t take(std::uint32_t points)
   {
-    const auto most = std::min(points_, slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX);
+    const std::uint64_t inSlots = slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX;
+    const std::uint64_t most = std::min(points_, inSlots);
     const auto taken = static_cast<std::uint32_t>(std::min<std::uint64_t>(points, most));
+    cutByPoints_ = cutByPoints_ || (taken < points && points_ <= inSlots);
+    cutBySlots_ = cutBySlots_ || (taken < points && inSlots < points_);
     points_ -= taken;
     slots_ -= gpuSlotsOf(taken);
     return taken;
   }
+  std::uint64_t slots() const { return slots_; } ///< that are left
+  bool cutByPoints() const { return cutByPoints_; }
+  bool cutBySlots() const { return cutBySlots_; }
 
 private:
   std::uint64_t points_ = UINT64_MAX;
   std::uint64_t slots_ = UINT64_MAX;
+  bool cutByPoints_ = false; ///< a node drew fewer points than it should, by the budget of points
+  bool cutBySlots_ = false; ///< likewise, by the GPU's memory
 };
 
 } // namespace pointfront

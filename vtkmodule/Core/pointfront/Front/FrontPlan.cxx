@@ -23,7 +23,6 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   limits_ = &limits;
   delta_ = &delta;
   update_ = update;
-  clipped_ = false;
   allowance_ = DrawAllowance(limits);
   requests_.begin(residency);
   delta.draw.clear();
@@ -31,12 +30,9 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   delta.slotsDrawn = 0;
   delta.errorPx = 0.0;
 
-  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  listRoots(threshold);
+  for (const SlotIndex root : roots_)
   {
-    if (tree[root].hidden)
-    {
-      continue;
-    }
     // The first levels are wanted from the beginning, in sight or not.
     tree[root].needed = update;
     thresholdPx_ = threshold.px(tree[root].layer);
@@ -53,6 +49,27 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   }
   order_.sort(delta.draw);
   requests_.finish(limits.requestLimit, delta);
+}
+
+/// Where there is not a slot for each of them those come first that have most to show.
+void FrontPlan::listRoots(const FrontThreshold& threshold)
+{
+  ActiveTree& tree = *tree_;
+  roots_.clear();
+  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  {
+    tree[root].hidden ? void() : roots_.push_back(root);
+  }
+  if (allowance_.slots() < roots_.size())
+  {
+    const auto shown = [&](SlotIndex root)
+    {
+      const double px = threshold.px(tree[root].layer);
+      return tree[root].visible ? FrontDemand::pointsOf(tree[root], tree.refinement(), px) : 0u;
+    };
+    std::stable_sort(
+      roots_.begin(), roots_.end(), [&](SlotIndex a, SlotIndex b) { return shown(a) > shown(b); });
+  }
 }
 
 void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
@@ -157,9 +174,7 @@ void FrontPlan::prefetch(const ActiveNode& node, double priority)
 
 void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
 {
-  const std::uint32_t wanted = points;
-  points = allowance_.take(wanted);
-  clipped_ = clipped_ || points < wanted;
+  points = allowance_.take(points);
   if (points > 0)
   {
     const float projectedPx = node.errorPx / node.errorWeight;

@@ -7,6 +7,7 @@
 #include "pointfront/Front/RenderFront.h"
 
 #include <cstdint>
+#include <vector>
 
 namespace pointfront
 {
@@ -24,8 +25,10 @@ public:
 
   /// Nodes that the view needs and that are neither resident nor failed.
   std::uint32_t missing() const { return requests_.missing(); }
-  /// Points that the budget cut off (only where nodes are drawn whole, or not at all).
-  bool clipped() const { return clipped_; }
+  // The budget that cut points off: where nodes are drawn whole, or there is not a slot of GPU
+  // memory for each root.
+  bool cutByPoints() const { return allowance_.cutByPoints(); }
+  bool cutBySlots() const { return allowance_.cutBySlots(); }
 
 private:
   struct Visit
@@ -36,6 +39,7 @@ private:
   };
   using Presence = ResidencySnapshot::State;
 
+  void listRoots(const FrontThreshold& threshold);
   void visitAdd(SlotIndex slot, Visit visit);
   void visitReplace(SlotIndex slot, Visit visit);
   bool childrenReady(const ActiveNode& node, double errorPx);
@@ -52,7 +56,7 @@ private:
   DrawAllowance allowance_;
   double thresholdPx_ = 0.0; ///< threshold of the layer being visited
   std::uint32_t update_ = 0;
-  bool clipped_ = false;
+  std::vector<SlotIndex> roots_; ///< those of layers that are shown, in the order of visits
 };
 
 } // namespace pointfront

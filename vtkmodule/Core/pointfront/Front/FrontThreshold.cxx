@@ -139,6 +139,38 @@ Demand FrontThreshold::totalAt(const ActiveTree& tree, const FrontDemand& demand
   return sum;
 }
 
+Demand FrontThreshold::layerAt(
+  const ActiveTree& tree, const FrontDemand& demand, std::size_t layer, int rung) const
+{
+  Demand sum;
+  for (SlotIndex root = 0; root < tree.rootCount(); ++root)
+  {
+    if (tree[root].layer == layer)
+    {
+      sum += demand.ofRoot(root, ladder_.at(rung));
+    }
+  }
+  return sum;
+}
+
+/// Where not even the demand at the highest threshold fits into the GPU's memory, the slots of it;
+/// 0 where it fits.
+std::uint64_t FrontThreshold::slotsBeyond(const Demand& least, double share, double px) const
+{
+  Demand slots;
+  slots.slots = least.slots;
+  return fitsBudgets(limits_, slots, share, px) ? 0 : least.slots;
+}
+
+/// Slots that are taken at every threshold do not count: a higher one would not free any, but leave
+/// those that can be had nearly empty. The plan then fills as many as there are.
+std::optional<FrontBudget> FrontThreshold::broken(
+  Demand wanted, std::uint64_t leastSlots, double share, double px) const
+{
+  wanted.slots = wanted.slots <= leastSlots ? 0 : wanted.slots;
+  return brokenBudget(limits_, wanted, share, px);
+}
+
 /// Where nodes come whole nothing is won above the largest error of a root: the plan then cuts
 /// what is too much. Where prefixes are drawn, a higher threshold draws fewer points.
 int FrontThreshold::highestOf(const ActiveTree& tree) const
@@ -233,37 +265,30 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
     if (layer.share > 0.0)
     {
       const int ownBefore = layer.own.rung;
+      const std::uint64_t least =
+        slotsBeyond(layerAt(tree, demand, l, highest), layer.share, ladder_.at(highest));
       settle(layer.own, highest,
         [&](int rung)
-        {
-          Demand sum;
-          for (SlotIndex root = 0; root < tree.rootCount(); ++root)
-          {
-            if (tree[root].layer == l)
-            {
-              sum += demand.ofRoot(root, ladder_.at(rung));
-            }
-          }
-          return fitsBudgets(limits_, sum, layer.share, ladder_.at(rung));
-        });
+        { return !broken(layerAt(tree, demand, l, rung), least, layer.share, ladder_.at(rung)); });
       changed_ = changed_ || layer.own.rung != ownBefore;
     }
   }
   const int lowestBefore = common_.lowest;
+  leastSlots_ = slotsBeyond(totalAt(tree, demand, highest), 1.0, ladder_.at(highest));
   int demandRung = -1;
   settle(common_, highest,
     [&](int rung)
     {
       const Demand wanted = totalAt(tree, demand, rung);
       const double px = ladder_.at(rung);
-      const std::optional<FrontBudget> broken = brokenBudget(limits_, wanted, 1.0, px);
-      if (!broken)
+      const std::optional<FrontBudget> first = broken(wanted, leastSlots_, 1.0, px);
+      if (!first)
       {
         demand_ = wanted;
         demandRung = rung;
       }
-      boundBy_ = broken.value_or(boundBy_);
-      return !broken;
+      boundBy_ = first.value_or(boundBy_);
+      return !first;
     });
   if (common_.lowest > 0 && common_.lowest != lowestBefore)
   {
@@ -279,9 +304,9 @@ bool FrontThreshold::admit(const Demand& more)
 {
   Demand wanted = demand_;
   wanted += more;
-  if (const auto broken = brokenBudget(limits_, wanted, 1.0, commonPx_))
+  if (const auto first = broken(wanted, leastSlots_, 1.0, commonPx_))
   {
-    boundBy_ = *broken;
+    boundBy_ = *first;
     return false;
   }
   demand_ = wanted;
@@ -290,7 +315,7 @@ bool FrontThreshold::admit(const Demand& more)
 
 bool FrontThreshold::unmoved() const
 {
-  return !limited() || (!common_.bound && fitsBudgets(limits_, demand_, 1.0, commonPx_));
+  return !limited() || (!common_.bound && !broken(demand_, leastSlots_, 1.0, commonPx_));
 }
 
 bool FrontThreshold::falling() const

@@ -1,12 +1,14 @@
 #pragma once
 
 #include "pointfront/Front/ActiveTree.h"
+#include "pointfront/Front/FrontBudgets.h"
 #include "pointfront/Front/FrontDemand.h"
 #include "pointfront/Front/RenderFront.h"
 #include "pointfront/Front/ThresholdLadder.h"
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -74,6 +76,11 @@ private:
   template <typename FitsAt>
   void settle(Rung& state, int highest, FitsAt fitsAt);
   int highestOf(const ActiveTree& tree) const;
+  Demand layerAt(
+    const ActiveTree& tree, const FrontDemand& demand, std::size_t layer, int rung) const;
+  std::uint64_t slotsBeyond(const Demand& least, double share, double px) const;
+  std::optional<FrontBudget> broken(
+    Demand wanted, std::uint64_t leastSlots, double share, double px) const;
   void adoptLayers(const ActiveTree& tree);
   /// Rest of the shared limits, drawn, slots and held; 0 where there is none.
   using Left = std::array<std::uint64_t, 3>;
@@ -91,6 +98,7 @@ private:
   bool changed_ = false;
   FrontBudget boundBy_ = FrontBudget::Points;
   Left leftAtLowest_{}; ///< when common_.lowest was found
+  std::uint64_t leastSlots_ = 0; ///< slotsBeyond() of all layers together
   Demand demand_; ///< the last one that fits: of the thresholds in force
 };
 

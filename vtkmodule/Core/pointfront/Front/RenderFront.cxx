@@ -233,8 +233,8 @@ void RenderFront::State::finish(const ResidencySnapshot& residency)
   delta.frontLength = tree.frontLength();
   delta.rowsComing = rowsComing;
   delta.thresholdPx = threshold.largestPx(tree);
-  delta.limitedByBudget = plan.clipped() || heldBy(FrontBudget::Points);
-  delta.limitedByGpu = heldBy(FrontBudget::GpuMemory);
+  delta.limitedByBudget = plan.cutByPoints() || heldBy(FrontBudget::Points);
+  delta.limitedByGpu = plan.cutBySlots() || heldBy(FrontBudget::GpuMemory);
   delta.limitedByMemory = exhausted || heldBy(FrontBudget::HostMemory);
   delta.complete =
     settled && steady && (exhausted || ((threshold.atTarget() || bound) && plan.missing() == 0));

@@ -20,6 +20,8 @@ namespace pointfront
 
 namespace
 {
+const std::string assumeOption = "--assume-crs"; // an option of the build
+
 std::string checkExtension(std::string& path)
 {
   const CLI::Validator check = knownWords({ ".las", ".laz", ".xyz", ".csv", ".ply", ".pcd" });
@@ -55,6 +57,7 @@ std::unique_ptr<PointSink> makeFile(const std::string& path, const SinkChoice& c
     options.temporaryFolder = choice.temporaryFolder;
     options.created = choice.dated ? LASDate::today() : LASDate();
     options.progress = choice.progress;
+    options.assumedCrsName = assumeOption;
     return std::make_unique<COPCWriter>(path, std::move(options));
   }
   return std::make_unique<LASWriter>(path,
@@ -78,7 +81,7 @@ Result<std::unique_ptr<PointSink>> makeSink(const std::string& path, const SinkC
     file = std::make_unique<EightBitColourSink>(std::move(file));
   }
   return choice.crs.empty() ? Result<std::unique_ptr<PointSink>>(std::move(file))
-                            : sinkInSystem(std::move(file), choice.crs);
+                            : sinkInSystem(std::move(file), choice.crs, assumeOption);
 }
 
 bool isCOPCName(const std::string& path)

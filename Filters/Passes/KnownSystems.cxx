@@ -24,9 +24,10 @@ Result<std::unique_ptr<AttributePass>> oneSystemPass(const PassChoice& choice)
 }
 
 Result<std::unique_ptr<PointSink>> sinkInSystem(
-  std::unique_ptr<PointSink> sink, const std::string& target)
+  std::unique_ptr<PointSink> sink, const std::string& target, const std::string& assumedName)
 {
-  return std::unique_ptr<PointSink>(std::make_unique<ProjectedSink>(std::move(sink), target));
+  return std::unique_ptr<PointSink>(
+    std::make_unique<ProjectedSink>(std::move(sink), target, assumedName));
 }
 
 } // namespace pointfront

@@ -21,9 +21,10 @@ std::shared_ptr<const CoordinateSystems> knownSystems();
 /// Unsupported: a build without PROJ, and a system is named.
 Result<std::unique_ptr<AttributePass>> oneSystemPass(const PassChoice& choice);
 
-/// A sink whose points are transformed into the system `target` first.
-/// Errors   Unsupported: a build without PROJ.
+/// A sink whose points are transformed into the system `target` first. `assumedName`: what a
+/// message calls the choice of a build that names a system for inputs without one. Errors
+/// Unsupported: a build without PROJ.
 Result<std::unique_ptr<PointSink>> sinkInSystem(
-  std::unique_ptr<PointSink> sink, const std::string& target);
+  std::unique_ptr<PointSink> sink, const std::string& target, const std::string& assumedName);
 
 } // namespace pointfront

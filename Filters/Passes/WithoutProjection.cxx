@@ -98,8 +98,8 @@ Result<std::unique_ptr<AttributePass>> oneSystemPass(const PassChoice& choice)
   return std::unique_ptr<AttributePass>(std::make_unique<SameSystemPass>());
 }
 
-Result<std::unique_ptr<PointSink>> sinkInSystem(
-  std::unique_ptr<PointSink> /*sink*/, const std::string& /*target*/)
+Result<std::unique_ptr<PointSink>> sinkInSystem(std::unique_ptr<PointSink> /*sink*/,
+  const std::string& /*target*/, const std::string& /*assumedName*/)
 {
   return leftOut("writing points in another coordinate reference system", option);
 }

@@ -27,9 +27,11 @@ std::string definitionOf(const std::string& target)
 }
 } // namespace
 
-ProjectedSink::ProjectedSink(std::unique_ptr<PointSink> sink, std::string target)
+ProjectedSink::ProjectedSink(
+  std::unique_ptr<PointSink> sink, std::string target, std::string assumedName)
   : ForwardingSink(std::move(sink))
   , target_(std::move(target))
+  , assumedName_(std::move(assumedName))
 {
 }
 
@@ -41,7 +43,8 @@ Result<void> ProjectedSink::begin(const SinkDescription& description)
   {
     return makeError(Error::Kind::BadArgument,
       "the points name no coordinate reference system to "
-      "transform them from; build the store with --assume-crs");
+      "transform them from; build the store with " +
+        assumedName_);
   }
   const ProjCoordinateSystems known;
   const Result<CoordinateSystem> from = known.parse(description.crsWkt);

@@ -18,7 +18,8 @@ class ProjectedSink final : public ForwardingSink
 {
 public:
   /// `target`: a code, a definition, or the path of a file that holds one.
-  ProjectedSink(std::unique_ptr<PointSink> sink, std::string target);
+  /// `assumedName`: see sinkInSystem().
+  ProjectedSink(std::unique_ptr<PointSink> sink, std::string target, std::string assumedName);
   ~ProjectedSink() override;
 
   Result<void> begin(const SinkDescription& description) override;
@@ -27,6 +28,7 @@ public:
 
 private:
   std::string target_;
+  std::string assumedName_;
   std::unique_ptr<CoordinateTransform> transform_; ///< since begin(); null: the same system
   AttributeSchema schema_;
   PointBatch batch_; ///< the rest of the last batch

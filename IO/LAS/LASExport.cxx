@@ -1,6 +1,7 @@
 #include "LASExport.h"
 
 #include "LASExtraBytes.h"
+#include "LASFieldChoice.h"
 #include "LASFile.h"
 #include "LASHeader.h"
 #include "LASRecords.h"
@@ -46,7 +47,7 @@ struct Needs
   {
     return copc || has("scanner_channel") || has("nir") || exceeds("classification", 31) ||
       exceeds("classification_flags", 7) || exceeds("return_number", 7) ||
-      exceeds("return_count", 7);
+      exceeds("return_count", 7) || hasFineAngles(description);
   }
   const MetadataRecord* record(const char* owner, std::uint16_t id) const
   {
@@ -79,103 +80,6 @@ int pointFormatFor(const Needs& needs)
     return rgb || nir ? 10 : 9;
   }
   return nir ? 8 : (rgb ? 7 : 6);
-}
-
-bool isFloat(ScalarType type)
-{
-  return type == ScalarType::Float32 || type == ScalarType::Float64;
-}
-
-/// Whether all values of a column are known to be integers that the type holds.
-bool holdsAll(const SinkDescription& description, std::size_t column, ScalarType type)
-{
-  if (isFloat(description.schema[column].type) || column >= description.largest.size() ||
-    column >= description.smallest.size())
-  {
-    return false;
-  }
-  return visitScalar(type,
-    [&](auto zero)
-    {
-      using T = decltype(zero);
-      return description.smallest[column] >=
-        static_cast<double>(std::numeric_limits<T>::lowest()) &&
-        description.largest[column] <= static_cast<double>(std::numeric_limits<T>::max());
-    });
-}
-
-/// A column can be a LAS field if it has as many components and its type, or if the field's type
-/// holds all its values. LAS rounds angles anyway.
-bool fits(const SinkDescription& description, std::size_t column, const Attribute& field)
-{
-  const Attribute& own = description.schema[column];
-  if (own.components != field.components || own.scale != 1.0 || own.offset != 0.0)
-  {
-    return false;
-  }
-  constexpr double exactInteger = 9007199254740992.0; // 2^53
-  const bool known = column < description.largest.size() && column < description.smallest.size();
-  const bool exact = field.type == ScalarType::Float64 &&
-    (sizeOf(own.type) <= 4 ||
-      (known && description.largest[column] <= exactInteger &&
-        description.smallest[column] >= -exactInteger));
-  const bool angle = field.name == "scan_angle";
-  return own.type == field.type || exact || angle ||
-    (own.type == ScalarType::UInt8 && field.type == ScalarType::UInt16) ||
-    (!isFloat(field.type) && holdsAll(description, column, field.type));
-}
-
-/// Attributes that are not LAS fields, and where each comes from. Arrays of more than three have
-/// no data type in LAS: bytes stay together, others go one by one.
-void addExtra(std::size_t column, const Attribute& attribute, std::vector<Attribute>& extra,
-  std::vector<std::optional<LASExport::Origin>>& origins)
-{
-  if (attribute.components <= 3 || attribute.type == ScalarType::UInt8)
-  {
-    extra.push_back(attribute);
-    origins.push_back(LASExport::Origin{ column, 0, attribute.type });
-    return;
-  }
-  for (std::size_t k = 0; k < attribute.components; ++k)
-  {
-    Attribute single = attribute;
-    single.name += "[" + std::to_string(k) + "]";
-    single.components = 1;
-    extra.push_back(single);
-    origins.push_back(LASExport::Origin{ column, k * sizeOf(attribute.type), attribute.type });
-  }
-}
-
-/// Fills layout and origins; gives the extra attributes with the names they have in the schema.
-std::vector<Attribute> layOut(const SinkDescription& description, int format, LASExport& plan)
-{
-  const AttributeSchema& schema = description.schema;
-  const LASPointLayout own = makeLASPointLayout(format, {});
-  plan.origins.assign(own.schema.size(), std::nullopt);
-  std::vector<Attribute> extra;
-  for (std::size_t c = 0; c < schema.size(); ++c)
-  {
-    const auto field = std::find_if(own.schema.begin(), own.schema.end(),
-      [&](const Attribute& candidate) { return candidate.name == schema[c].name; });
-    const bool isField = field != own.schema.end();
-    if (isField && fits(description, c, *field))
-    {
-      plan.origins[static_cast<std::size_t>(field - own.schema.begin())] =
-        LASExport::Origin{ c, 0, schema[c].type };
-    }
-    else
-    {
-      addExtra(c, schema[c], extra, plan.origins);
-      if (isField)
-      {
-        plan.findings.push_back("'" + schema[c].name + "' has values that LAS's own field (" +
-          std::string(nameOf(field->type)) +
-          ") does not hold: the field is 0, and they are extra bytes of that name.");
-      }
-    }
-  }
-  plan.layout = makeLASPointLayout(format, extra);
-  return extra;
 }
 
 /// The grid of the description, its offset moved by whole steps if integers of 32 bits would not
@@ -353,6 +257,11 @@ LASDate LASDate::today()
     static_cast<std::uint16_t>(day.tm_year + 1900) };
 }
 
+std::vector<std::string> LASExport::findings(const LASTotals& totals) const
+{
+  return fieldFindings(*this, totals);
+}
+
 std::size_t LASExport::headerBytes() const
 {
   return versionMinor >= 4 ? lasHeaderBytes14
@@ -368,7 +277,7 @@ Result<LASExport> LASExport::plan(
   {
     return done.error();
   }
-  const std::vector<Attribute> extra = layOut(description, pointFormatFor(needs), plan);
+  const std::vector<Attribute> extra = chooseLASFields(description, pointFormatFor(needs), plan);
   if (plan.layout.pointBytes > std::numeric_limits<std::uint16_t>::max())
   {
     return makeError(Error::Kind::BadArgument,

@@ -21,6 +21,9 @@ struct LASTotals
   std::array<std::uint64_t, 15> byReturn{}; ///< return numbers 1 to 15
   GridPosition low{ 0 }; ///< valid if there are points
   GridPosition high{ 0 };
+  /// By column of the layout, empty if there are none: values that their field does not hold.
+  std::vector<std::uint64_t> replaced;
+  std::uint64_t roundedAngles = 0; ///< scan angles between the steps that the format has
 };
 
 /// A day as LAS headers have it.
@@ -44,6 +47,9 @@ struct LASExport
     std::size_t column = 0;
     std::size_t byte = 0; ///< offset in the column's element, for one component taken alone
     ScalarType type = ScalarType::UInt8;
+    /// Values may be beyond the field, which has `instead` there.
+    bool partly = false;
+    std::uint8_t instead = 0;
   };
 
   /// Which point formats may be chosen.
@@ -62,11 +68,13 @@ struct LASExport
   std::vector<MetadataRecord> records; ///< written before the points
   std::vector<MetadataRecord> extendedRecords; ///< payloads above 65,535 bytes, behind them
 
-  /// Attributes of the name of a field that does not hold them: full sentences.
-  std::vector<std::string> findings;
+  /// One for each column of `layout`: the extra bytes that have what the field lacks; mostly "".
+  std::vector<std::string> exactNames;
   /// OfCOPC: the reference system was known by GeoTIFF keys only, which are left out.
   bool lostGeoKeys = false;
 
+  /// Attributes that their fields do not hold as they are: full sentences.
+  std::vector<std::string> findings(const LASTotals& totals) const;
   std::size_t headerBytes() const;
   /// Room for the header, and `all` behind it as they stand in a file.
   std::vector<std::byte> beginning(const std::vector<MetadataRecord>& all) const;

@@ -66,7 +66,7 @@ std::string LASWriter::path() const
 
 std::vector<std::string> LASWriter::findings() const
 {
-  return state_->plan.findings;
+  return state_->plan.findings(state_->totals);
 }
 
 Result<void> LASWriter::begin(const SinkDescription& description)

@@ -99,6 +99,19 @@ class Exports(ToolTest):
             1, "export", bare, "-o", self.folder / "b.las", "--crs", "EPSG:4326").err)
         self.refuse(1, "export", store, "-o", self.folder / "b.las", "--crs", "EPSG:nothing")
 
+    def test_angles_that_are_no_whole_degrees_get_a_format_of_fine_steps(self):
+        text = self.folder / "a.csv"
+        for angles, point_format, said in (
+                ((-7, 12), 0, ""), ((-7.5, 12), 6, ""),
+                ((-7.4, 12), 6, "1 scan angles are rounded"),
+                ((-7, 100), 6, "2 scan angles are rounded")):
+            text.write_text("x,y,z,scan_angle\n0,0,0,%g\n1,1,1,%g\n" % angles)
+            self.succeed("build", text, "-o", self.folder / "a.pfront", "--force")
+            out, outcome = self.export(self.folder / "a.pfront", "a.las")
+            self.assertEqual(out.read_bytes()[104], point_format, angles)
+            self.assertIn(said, outcome.err)
+            self.assertEqual("rounded" in outcome.err, said != "")
+
 
 class Messages(ToolTest):
     def usage(self, *arguments):

@@ -159,7 +159,15 @@ class Counts(LimitsTest):
         self.assertIn("uint16", refused.err)
         for name in ("c.las", "c.copc.laz"):
             exported = self.succeed("export", store, "-o", self.folder / name)
-            self.assertIn("'classification' has values", exported.err)
+            self.assertIn("1 values of 'classification' are beyond", exported.err)
+            back = self.folder / "back.pfront"
+            self.succeed("build", self.folder / name, "-o", back, "--force")
+            text = self.folder / "back.csv"
+            self.succeed("export", back, "-o", text, "--force")
+            names, *rows = (line.split(",") for line in text.read_text().splitlines())
+            columns = [names.index(n) for n in ("classification", "classification_exact")]
+            self.assertEqual(sorted([row[c] for c in columns] for row in rows),
+                             [["1", "300"], ["2", "2"]])
         out = self.folder / "c300.csv"
         self.succeed("export", store, "-o", out, "--where", "classification == 300")
         self.assertEqual(len(out.read_text().splitlines()), 2)

@@ -1,8 +1,11 @@
 #include "ProjectionPass.h"
 
+#include "ProjectedSink.h"
+
 #include "CloudInMemory.h"
 
 #include "LASFormat.h"
+#include "LASWriter.h"
 
 #include <gtest/gtest.h>
 
@@ -148,6 +151,16 @@ TEST(ProjectionPass, HeightsThatAreNamedStayNamed)
   ASSERT_TRUE(now.ok());
   EXPECT_TRUE(known.equivalent(*now, *known.parse("EPSG:26911+5703"), false)) << now->name;
   EXPECT_NEAR(firstChunk(*outcome.sources[0]).positions[0].z, 1200.0, 1e-9);
+}
+
+TEST(ProjectedSink, NamesTheChoiceThatItsCallerHas)
+{
+  const std::string path = testing::TempDir() + "unplaced.las";
+  ProjectedSink sink(std::make_unique<LASWriter>(path), "EPSG:4326", "AssumedCRS");
+  const Result<void> begun = sink.begin({});
+  ASSERT_FALSE(begun);
+  EXPECT_NE(begun.error().what.find("build the store with AssumedCRS"), std::string::npos)
+    << begun.error().what;
 }
 
 TEST(ProjectionPass, AnInputWithoutASystemIsToldOfAndNeverMoved)

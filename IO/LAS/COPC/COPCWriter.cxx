@@ -140,12 +140,13 @@ std::string COPCWriter::path() const
 
 std::vector<std::string> COPCWriter::findings() const
 {
-  std::vector<std::string> found = state_->plan.findings;
+  std::vector<std::string> found = state_->plan.findings(state_->totals);
   if (state_->lostSystem)
   {
     found.push_back(
       "The coordinate reference system is known by GeoTIFF keys only, which COPC does "
-      "not have; the file names none (build --assume-crs gives it one).");
+      "not have; the file names none (a build with " +
+      state_->options.assumedCrsName + " gives it one).");
   }
   return found;
 }

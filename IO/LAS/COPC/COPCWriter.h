@@ -39,6 +39,8 @@ public:
     std::uint64_t readBytes = 0; ///< the part that the query needs that brings the points
     std::string temporaryFolder; ///< empty: the file's own
     LASDate created = LASDate::today();
+    /// Messages call so the choice of a build that names a system for inputs without one.
+    std::string assumedCrsName = "AssumedCRS";
     /// Told of finish(), which is half of the work; false cancels.
     ProgressFunction progress = {};
   };

@@ -23,6 +23,7 @@ struct Work
   std::size_t count;
   std::byte* records;
   std::uint64_t number; ///< in the file, of point `first`
+  LASTotals& totals;
 };
 
 Error cannotHold(const Work& work, std::size_t i, const std::string& what)
@@ -30,11 +31,12 @@ Error cannotHold(const Work& work, std::size_t i, const std::string& what)
   return makeError(Error::Kind::BadArgument,
     work.path + ": point " + std::to_string(work.number + i) + " has " + what +
       ", which LAS point format " + std::to_string(work.plan.layout.pointFormat) +
-      " cannot hold; leave that attribute out (--attributes), or write another format");
+      " cannot hold; leave that attribute out, or write another format");
 }
 
-Result<void> encodePositions(const Work& work, LASTotals& totals)
+Result<void> encodePositions(const Work& work)
 {
+  LASTotals& totals = work.totals;
   const QuantisationGrid& grid = work.plan.grid;
   std::byte* to = work.records;
   for (std::size_t i = 0; i < work.count; ++i, to += work.plan.layout.pointBytes)
@@ -112,20 +114,30 @@ Result<void> encodeBits(const Work& work, const Elements& from, const Attribute&
   return {};
 }
 
+/// `replaced`: counts angles that are out of range; null: they are an error.
 template <typename Integer>
-Result<void> encodeAngle(const Work& work, const Elements& from, double degrees, std::byte* to)
+Result<void> encodeAngle(
+  const Work& work, const Elements& from, double degrees, std::byte* to, std::uint64_t* replaced)
 {
   const std::byte* element = from.first;
-  const bool whole = sizeof(Integer) == 1;
   for (std::size_t i = 0; i < work.count; ++i)
   {
-    const double angle = loadNumber<float>(element);
-    const double steps = std::round(angle / degrees);
+    const auto angle = loadNumber<float>(element);
+    double steps = std::round(angle / degrees);
     const bool inRange =
       steps >= std::numeric_limits<Integer>::min() && steps <= std::numeric_limits<Integer>::max();
-    if (!inRange || (whole && steps != angle))
+    if (!inRange && replaced != nullptr)
+    {
+      ++*replaced;
+      steps = 0.0;
+    }
+    else if (!inRange)
     {
       return cannotHold(work, i, "a scan_angle of " + std::to_string(angle) + " degrees");
+    }
+    else if (static_cast<float>(degrees * steps) != angle)
+    {
+      ++work.totals.roundedAngles;
     }
     storeNumber(to, static_cast<Integer>(steps));
     element += from.stride;
@@ -176,6 +188,39 @@ Result<std::vector<std::byte>> converted(
   return all;
 }
 
+/// The values in the type of their field, and Origin::instead for those that are beyond it; their
+/// number is added to `replaced`. All fields of integers are unsigned.
+std::vector<std::byte> narrowed(const Work& work, const Elements& from,
+  const LASExport::Origin& origin, const Attribute& attribute, const LASField& field,
+  std::uint64_t& replaced)
+{
+  std::vector<std::byte> all(work.count * attribute.bytes());
+  visitScalar(origin.type,
+    [&](auto source)
+    {
+      visitScalar(attribute.type,
+        [&](auto target)
+        {
+          using Source = decltype(source);
+          using Target = decltype(target);
+          if constexpr (std::is_integral_v<Source> && std::is_unsigned_v<Target>)
+          {
+            const bool bits = field.kind == LASField::Kind::Bits;
+            const Target largest = bits ? Target{ field.mask } : std::numeric_limits<Target>::max();
+            for (std::size_t i = 0; i < work.count; ++i)
+            {
+              const auto value = loadNumber<Source>(from.first + i * from.stride);
+              const bool fits = value >= 0 && static_cast<std::uint64_t>(value) <= largest;
+              replaced += fits ? 0 : 1;
+              storeNumber(all.data() + i * sizeof(Target),
+                fits ? static_cast<Target>(value) : Target{ origin.instead });
+            }
+          }
+        });
+    });
+  return all;
+}
+
 Result<void> encodeColumn(
   const Work& work, std::size_t c, LASExport::Origin origin, std::size_t stride)
 {
@@ -185,7 +230,14 @@ Result<void> encodeColumn(
     stride };
   std::vector<std::byte> own;
   const bool widened = origin.type == ScalarType::UInt8 && attribute.type == ScalarType::UInt16;
-  if (origin.type != attribute.type && !widened)
+  std::uint64_t* const replaced = origin.partly ? &work.totals.replaced[c] : nullptr;
+  if (replaced != nullptr && attribute.type != ScalarType::Float32)
+  {
+    own = narrowed(work, from, origin, attribute, field, *replaced);
+    from = { own.data(), attribute.bytes() };
+    origin.type = attribute.type;
+  }
+  else if (origin.type != attribute.type && !widened)
   {
     Result<std::vector<std::byte>> made = converted(work, from, origin.type, attribute);
     if (!made)
@@ -202,9 +254,9 @@ Result<void> encodeColumn(
     case LASField::Kind::Bits:
       return encodeBits(work, from, attribute, field, to);
     case LASField::Kind::Angle8:
-      return encodeAngle<std::int8_t>(work, from, 1.0, to);
+      return encodeAngle<std::int8_t>(work, from, 1.0, to, replaced);
     case LASField::Kind::Angle16:
-      return encodeAngle<std::int16_t>(work, from, 0.006, to);
+      return encodeAngle<std::int16_t>(work, from, 0.006, to, replaced);
     case LASField::Kind::Copy:
       break;
   }
@@ -219,8 +271,9 @@ Result<void> encodeColumn(
   return {};
 }
 
-void countReturns(const Work& work, LASTotals& totals)
+void countReturns(const Work& work)
 {
+  LASTotals& totals = work.totals;
   // Byte 14 of every format begins with the return number: 3 bits, or 4 from format 6 on.
   const unsigned mask = work.plan.layout.pointFormat < 6 ? 7 : 15;
   const std::byte* flags = work.records + 14;
@@ -241,8 +294,9 @@ Result<void> encodeLASPoints(const LASExport& plan, const std::string& path,
   LASTotals& totals)
 {
   records.assign(count * plan.layout.pointBytes, std::byte{ 0 });
-  const Work work{ plan, path, batch, first, count, records.data(), totals.points };
-  if (auto done = encodePositions(work, totals); !done)
+  totals.replaced.resize(plan.origins.size());
+  const Work work{ plan, path, batch, first, count, records.data(), totals.points, totals };
+  if (auto done = encodePositions(work); !done)
   {
     return done;
   }
@@ -259,7 +313,7 @@ Result<void> encodeLASPoints(const LASExport& plan, const std::string& path,
       return done;
     }
   }
-  countReturns(work, totals);
+  countReturns(work);
   return {};
 }
 

@@ -15,9 +15,9 @@ namespace pointfront
 /// Turns points [first, first + count) of `batch` into LAS records, one behind the other, and
 /// counts them in `totals`: the inverse of decodeLASPoints.
 /// Errors   BadArgument with `path` and the point's number in the file: a coordinate beyond 32 bits
-///          or not finite, a value that the field has not enough bits for, an angle that point
-///          formats 0 to 5 cannot hold (whole degrees).
-/// Rounding angles of formats 6 to 10 go to the nearest 0.006 degrees.
+///          or not finite, a value or an angle that the field has not enough bits for, unless the
+///          plan knows what comes instead.
+/// Rounding angles go to the nearest degree, in formats 6 to 10 to the nearest 0.006 degrees.
 Result<void> encodeLASPoints(const LASExport& plan, const std::string& path,
   const PointBatch& batch, std::size_t first, std::size_t count, std::vector<std::byte>& records,
   LASTotals& totals);

@@ -1,3 +1,4 @@
+#include "COPCWriter.h"
 #include "FileBytes.h"
 #include "FilesInTheMaking.h"
 #include "LASExport.h"
@@ -149,7 +150,7 @@ TEST(LASExport, WritesOtherAttributesAsExtraBytes)
   const AttributeSchema& schema = source->description().schema;
   const PointBatch back = readAll(*source);
   EXPECT_EQ(valuesOf(back, schema, "intensity")[0], 0); // the field itself was not given
-  EXPECT_EQ(valuesOf(back, schema, "intensity_2")[0], 0.25);
+  EXPECT_EQ(valuesOf(back, schema, "intensity_exact")[0], 0.25);
   EXPECT_EQ(valuesOf(back, schema, "normal", 1)[0], 0.6f);
   EXPECT_EQ(valuesOf(back, schema, "histogram[3]")[0], 4000);
 }
@@ -197,25 +198,6 @@ TEST(LASExport, RefusesWhatNoRecordCanHold)
   const Result<LASExport> plan = LASExport::plan(wide, "out.las");
   ASSERT_FALSE(plan);
   EXPECT_NE(plan.error().what.find("the extent in x is 100000000"), std::string::npos);
-}
-
-TEST(LASExport, RefusesAFractionOfADegreeInOldFormatsAndRoundsInNewOnes)
-{
-  const Attribute angle{ "scan_angle", ScalarType::Float32 };
-  const float degrees = 12.5004f;
-  Error error;
-  SinkDescription description = withAttributes({ angle });
-  PointBatch batch = onePoint(description, glm::dvec3(0.0));
-  std::memcpy(batch.columns[0].data(), &degrees, sizeof degrees);
-  EXPECT_EQ(written(description, batch, "fraction.las", &error), nullptr);
-  EXPECT_NE(error.what.find("a scan_angle of 12.5"), std::string::npos) << error.what;
-
-  description = withAttributes({ angle, channel });
-  batch.columns.push_back({ std::byte{ 1 } });
-  const auto source = written(description, batch, "angle.las");
-  ASSERT_TRUE(source);
-  EXPECT_NEAR(
-    valuesOf(readAll(*source), source->description().schema, "scan_angle")[0], 12.498, 1e-5);
 }
 
 TEST(LASExport, WithoutPointsIsAWholeFile)
@@ -274,8 +256,8 @@ TEST(LASExport, TakesValuesOfAnyTypeThatTheFieldHolds)
   std::memcpy(batch.columns[4].data(), colour, sizeof colour);
   const Result<LASExport> plan = LASExport::plan(description, "out.las");
   ASSERT_TRUE(plan);
-  ASSERT_EQ(plan->findings.size(), 1u);
-  EXPECT_NE(plan->findings[0].find("'intensity'"), std::string::npos) << plan->findings[0];
+  ASSERT_EQ(plan->findings({}).size(), 1u);
+  EXPECT_NE(plan->findings({})[0].find("'intensity'"), std::string::npos) << plan->findings({})[0];
   const auto source = written(description, batch, "any-type.las");
   ASSERT_TRUE(source);
   const AttributeSchema& schema = source->description().schema;
@@ -286,7 +268,7 @@ TEST(LASExport, TakesValuesOfAnyTypeThatTheFieldHolds)
   EXPECT_EQ(loadNumber<float>(column("scan_angle")), -7.0f);
   EXPECT_EQ(loadNumber<std::uint16_t>(column("rgb") + 2), 40000);
   EXPECT_EQ(loadNumber<std::uint16_t>(column("rgb") + 4), 65535);
-  EXPECT_EQ(loadNumber<float>(column("intensity_2")), 0.5f);
+  EXPECT_EQ(loadNumber<float>(column("intensity_exact")), 0.5f);
 }
 
 TEST(LASExport, TakesTimesOf64BitIntegersThatDoublesHold)
@@ -296,19 +278,19 @@ TEST(LASExport, TakesTimesOf64BitIntegersThatDoublesHold)
   for (const auto& [largest, findings] : { std::pair(1e15, 0u), std::pair(1e18, 1u) })
   {
     description.largest = { largest };
-    EXPECT_EQ(LASExport::plan(description, "out.las")->findings.size(), findings) << largest;
+    EXPECT_EQ(LASExport::plan(description, "out.las")->findings({}).size(), findings) << largest;
   }
 }
 
 TEST(LASExport, SaysWhichFieldDoesNotHoldItsValues)
 {
   SinkDescription description = withAttributes({ { "classification", ScalarType::UInt16 } });
-  EXPECT_EQ(LASExport::plan(description, "out.las")->findings.size(), 1u) << "nobody knows";
+  EXPECT_EQ(LASExport::plan(description, "out.las")->findings({}).size(), 1u) << "nobody knows";
   description.largest = { 300 };
   description.smallest = { 0 };
-  EXPECT_EQ(LASExport::plan(description, "out.las")->findings.size(), 1u);
+  EXPECT_EQ(LASExport::plan(description, "out.las")->findings({}).size(), 1u);
   description.largest = { 255 };
-  EXPECT_TRUE(LASExport::plan(description, "out.las")->findings.empty());
+  EXPECT_TRUE(LASExport::plan(description, "out.las")->findings({}).empty());
   // Ranges that do not hold: an error, and no other class.
   PointBatch batch = onePoint(description, glm::dvec3(1.0));
   const std::uint16_t label = 300;
@@ -316,6 +298,29 @@ TEST(LASExport, SaysWhichFieldDoesNotHoldItsValues)
   Error error;
   EXPECT_FALSE(written(description, batch, "wrong-range.las", &error));
   EXPECT_NE(error.what.find("classification"), std::string::npos) << error.what;
+}
+
+TEST(COPCWriter, NamesTheChoiceThatItsCallerHas)
+{
+  SinkDescription description = withAttributes({});
+  description.metadata.push_back({ "LASF_Projection", 34735, "", std::vector<std::byte>(16) });
+  const std::string path = outputFolder() + "/keys.copc.laz";
+  for (const std::string name : { "AssumedCRS", "--assume-crs" })
+  {
+    COPCWriter::Options options;
+    if (name != options.assumedCrsName)
+    {
+      options.assumedCrsName = name;
+    }
+    COPCWriter writer(path, options);
+    ASSERT_TRUE(writer.begin(description));
+    ASSERT_TRUE(writer.append(onePoint(description, glm::dvec3(1.0))));
+    ASSERT_TRUE(writer.finish());
+    ASSERT_EQ(writer.findings().size(), 1u);
+    EXPECT_NE(
+      writer.findings()[0].find("(a build with " + name + " gives it one)"), std::string::npos)
+      << writer.findings()[0];
+  }
 }
 
 /// Files of this process may not grow beyond some bytes: as good as a full disk.

@@ -6,6 +6,8 @@
 #include "LASHeader.h"
 #include "LASRecords.h"
 
+#include "pointfront/Points/GpsTimes.h"
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -271,6 +273,14 @@ std::size_t LASExport::headerBytes() const
 Result<LASExport> LASExport::plan(
   const SinkDescription& description, const std::string& path, Formats formats)
 {
+  if (gpsTimesOf(description.schema, description.metadata) == GpsTimes::Mixed)
+  {
+    return makeError(Error::Kind::BadArgument,
+      path +
+        ": the points have GPS times of two kinds, seconds of a week and standard GPS times, and a "
+        "LAS file has one; build a store without gps_time, or export the points of each input "
+        "alone");
+  }
   const Needs needs{ description, formats == Formats::OfCOPC };
   LASExport plan;
   if (auto done = placeGrid(description, path, plan); !done)

@@ -78,7 +78,9 @@ struct LASExport
   std::size_t headerBytes() const;
   /// Room for the header, and `all` behind it as they stand in a file.
   std::vector<std::byte> beginning(const std::vector<MetadataRecord>& all) const;
-  /// Errors   BadArgument with `path`: coordinates or attributes that no LAS record can hold.
+  /// Errors   BadArgument with `path`: coordinates or attributes that no LAS record can hold; GPS
+  /// times
+  ///          of two kinds.
   static Result<LASExport> plan(const SinkDescription& description, const std::string& path,
     Formats formats = Formats::Smallest);
   /// The public header block. `points` begin at `pointOffset`; `extendedOffset` is where the

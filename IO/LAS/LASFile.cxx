@@ -4,6 +4,7 @@
 
 #include "pointfront/Base/PrintableText.h"
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Points/GpsTimes.h"
 
 #include <algorithm>
 #include <utility>

@@ -16,11 +16,6 @@
 namespace pointfront
 {
 
-/// Owner and id of the metadata record that keeps the header's global encoding field (2 bytes:
-/// what GPS time means, above all) from a source to an export.
-constexpr const char* lasKeptOwner = "PointFront";
-constexpr std::uint16_t lasKeptEncodingRecord = 1;
-
 /// A LAS or LAZ file with everything but its points understood.
 /// description.pointCount is still the header's claim: the source that reads the points corrects
 /// it.

@@ -19,7 +19,6 @@ constexpr std::size_t lasHeaderBytes13 = 235; ///< LAS 1.3
 constexpr std::size_t lasHeaderBytes14 = 375; ///< LAS 1.4
 
 /// Bits of the global encoding field.
-constexpr std::uint16_t lasGpsStandardTime = 1;
 constexpr std::uint16_t lasWktBit = 16;
 
 /// The public header block of a LAS or LAZ file, checked: what it says of sizes and offsets is

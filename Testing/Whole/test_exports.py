@@ -99,6 +99,35 @@ class Exports(ToolTest):
             1, "export", bare, "-o", self.folder / "b.las", "--crs", "EPSG:4326").err)
         self.refuse(1, "export", store, "-o", self.folder / "b.las", "--crs", "EPSG:nothing")
 
+    def test_gps_times_of_two_kinds_go_into_no_las_file(self):
+        content = bytearray(SMALL.read_bytes())
+        content[6] |= 1  # standard GPS times
+        standard = self.folder / "standard.las"
+        standard.write_bytes(content)
+        both = self.folder / "both.pfront"
+        outcome = self.succeed("build", SMALL, standard, "-o", both)
+        self.assertIn("are standard GPS times", outcome.err)
+        tiles = self.folder / "tiles"
+        tiles.mkdir()
+        for name, path in (("week", SMALL), ("standard", standard)):
+            outcome = self.succeed("build", path, "-o", tiles / f"{name}.pfront")
+            self.assertNotIn("GPS", outcome.err)
+        city = self.folder / "city.pfcollection"
+        self.succeed("collection", "create", city, tiles)
+        for cloud in (both, tiles, city):
+            for name in ("two.las", "two.copc.laz"):
+                outcome = pointfront("export", cloud, "-o", self.folder / name)
+                self.assertEqual(outcome.status, 1)
+                self.assertIn("GPS times of two kinds", outcome.err)
+                self.assertFalse((self.folder / name).exists())
+        self.succeed("build", both, "-o", self.folder / "none.pfront", "--attributes", "intensity")
+        self.export(self.folder / "none.pfront", "none.las")
+        alone = self.folder / "alone.pfcollection"
+        self.succeed("collection", "create", alone, tiles / "standard.pfront")
+        for cloud, bit in ((tiles / "week.pfront", 0), (tiles / "standard.pfront", 1), (alone, 1)):
+            out, _ = self.export(cloud, "one.las")
+            self.assertEqual(out.read_bytes()[6] & 1, bit, cloud)
+
     def test_angles_that_are_no_whole_degrees_get_a_format_of_fine_steps(self):
         text = self.folder / "a.csv"
         for angles, point_format, said in (

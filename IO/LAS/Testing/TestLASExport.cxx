@@ -5,6 +5,8 @@
 #include "LASWriter.h"
 #include "SourcePoints.h"
 
+#include "pointfront/Points/GpsTimes.h"
+
 #include <gtest/gtest.h>
 
 #include <csignal>
@@ -321,6 +323,21 @@ TEST(COPCWriter, NamesTheChoiceThatItsCallerHas)
       writer.findings()[0].find("(a build with " + name + " gives it one)"), std::string::npos)
       << writer.findings()[0];
   }
+}
+
+TEST(LASExport, RefusesGpsTimesOfTwoKinds)
+{
+  SinkDescription description = withAttributes({ gpsTime });
+  description.metadata.push_back(
+    { lasKeptOwner, lasKeptEncodingRecord, "", { std::byte{ 1 }, std::byte{ 0 } } });
+  EXPECT_EQ(LASExport::plan(description, "out.las")->globalEncoding, 1);
+  description.metadata.push_back({ lasKeptOwner, lasMixedTimesRecord, "", {} });
+  const Result<LASExport> mixed = LASExport::plan(description, "out.las");
+  ASSERT_FALSE(mixed);
+  EXPECT_NE(mixed.error().what.find("GPS times of two kinds"), std::string::npos)
+    << mixed.error().what;
+  description.schema = AttributeSchema();
+  EXPECT_TRUE(LASExport::plan(description, "out.las")) << "without times";
 }
 
 /// Files of this process may not grow beyond some bytes: as good as a full disk.

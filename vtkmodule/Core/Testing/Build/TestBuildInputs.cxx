@@ -3,6 +3,7 @@
 #include "pointfront/Ingest/CommonSchema.h"
 #include "pointfront/Ingest/GridChoice.h"
 #include "pointfront/Ingest/ReferenceSystem.h"
+#include "pointfront/Points/GpsTimes.h"
 #include "pointfront/Store/PointStore.h"
 
 #include <gtest/gtest.h>
@@ -213,6 +214,50 @@ TEST(ReferenceSystem, RefusesTwoSystemsAndNamesBothFiles)
   ASSERT_TRUE(common);
   EXPECT_EQ(common->wkt, "first");
   EXPECT_EQ(common->warnings.size(), 1u);
+}
+
+/// A source with GPS times whose header has these bits in its global encoding.
+std::unique_ptr<CloudSource> timed(const std::string& path, std::uint8_t bits)
+{
+  auto source = schemaSource(path, { { "gps_time", ScalarType::Float64 } });
+  source->editDescription().metadata.push_back(
+    { lasKeptOwner, lasKeptEncodingRecord, "", { static_cast<std::byte>(bits), std::byte{ 0 } } });
+  return source;
+}
+
+GpsTimes timesIn(const ReferenceSystem& system)
+{
+  AttributeSchema schema;
+  schema.add({ "gps_time", ScalarType::Float64 });
+  return gpsTimesOf(schema, system.metadata);
+}
+
+TEST(ReferenceSystem, SaysWhatGpsTimesAllSourcesHave)
+{
+  Sources sources;
+  sources.push_back(schemaSource("no time", {}));
+  sources.push_back(timed("standard", 17));
+  auto common = commonReferenceSystem(sources);
+  ASSERT_TRUE(common);
+  EXPECT_EQ(timesIn(*common), GpsTimes::Standard) << "though the first source has none";
+  EXPECT_TRUE(common->warnings.empty());
+  sources.push_back(timed("week", 0));
+  common = commonReferenceSystem(sources);
+  ASSERT_TRUE(common);
+  EXPECT_EQ(timesIn(*common), GpsTimes::Mixed);
+  ASSERT_EQ(common->warnings.size(), 1u);
+  EXPECT_NE(common->warnings[0].find("'week' are seconds of a week, and those of 'standard'"),
+    std::string::npos)
+    << common->warnings[0];
+  // Such a store as an input: still mixed, and told before.
+  auto again = schemaSource("mixed", { { "gps_time", ScalarType::Float64 } });
+  again->editDescription().metadata = common->metadata;
+  Sources one;
+  one.push_back(std::move(again));
+  const auto stored = commonReferenceSystem(one);
+  ASSERT_TRUE(stored);
+  EXPECT_EQ(timesIn(*stored), GpsTimes::Mixed);
+  EXPECT_TRUE(stored->warnings.empty());
 }
 
 /// A file with one colour for all its points.

@@ -4,6 +4,7 @@
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Disk/TemporaryFile.h"
 #include "pointfront/Ingest/RecordColumns.h"
+#include "pointfront/Points/GpsTimes.h"
 #include "pointfront/Store/DescriptionSection.h"
 #include "pointfront/Store/HeldColours.h"
 #include "pointfront/Store/PreviewRecord.h"
@@ -278,7 +279,9 @@ CollectedTile IncomingTile::facts(std::vector<StoreDescription>& kinds) const
   kind.grid = QuantisationGrid();
   kind.levels = 0;
   kind.metadata.erase(std::remove_if(kind.metadata.begin(), kind.metadata.end(),
-                        [](const auto& record) { return record.owner != "LASF_Projection"; }),
+                        [](const auto& record) {
+                          return record.owner != "LASF_Projection" && record.owner != lasKeptOwner;
+                        }),
     kind.metadata.end());
   const HeldColours held = heldColours(own);
   for (ColumnRange& range : kind.ranges)

@@ -1,5 +1,7 @@
 #include "pointfront/Ingest/ReferenceSystem.h"
 
+#include "pointfront/Points/GpsTimes.h"
+
 #include <algorithm>
 
 namespace pointfront
@@ -75,6 +77,17 @@ Result<ReferenceSystem> commonReferenceSystem(
   else if (!sources.empty())
   {
     system.metadata = sources.front()->description().metadata;
+  }
+  GatheredTimes times;
+  for (const auto& source : sources)
+  {
+    const SourceDescription& description = source->description();
+    times.add(description.path, description.schema, description.metadata);
+  }
+  times.keepIn(system.metadata);
+  if (const std::string warning = times.warning(); !warning.empty())
+  {
+    system.warnings.push_back(warning);
   }
   return system;
 }

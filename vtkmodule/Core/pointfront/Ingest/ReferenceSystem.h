@@ -14,13 +14,14 @@ namespace pointfront
 struct ReferenceSystem
 {
   std::string wkt;
-  std::vector<MetadataRecord> metadata; ///< metadata of the first source that has any
+  /// Records of the first source that names a system, and what GPS times all sources have together.
+  std::vector<MetadataRecord> metadata;
   std::vector<std::string> warnings;
 };
 
 /// Error BadArgument, naming both files, when two sources say different systems: points of two
 /// systems never go into one store as they are. A source that says none is taken as it is, with
-/// a warning.
+/// a warning; GPS times of two kinds are, too.
 Result<ReferenceSystem> commonReferenceSystem(
   const std::vector<std::unique_ptr<PointSource>>& sources);
 

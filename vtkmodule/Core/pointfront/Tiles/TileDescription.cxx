@@ -1,6 +1,7 @@
 #include "pointfront/Tiles/TileDescription.h"
 
 #include "pointfront/Ingest/RecordColumns.h"
+#include "pointfront/Points/GpsTimes.h"
 #include "pointfront/Points/SplatRadius.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/HeldColours.h"
@@ -240,6 +241,20 @@ void compareSystems(StoreDescription& whole, const Tiles& tiles)
   }
 }
 
+void compareTimes(StoreDescription& whole, const Tiles& tiles)
+{
+  GatheredTimes times;
+  for (const DescribedTiles& tile : tiles)
+  {
+    times.add(tile->path, tile->schema, tile->metadata);
+  }
+  times.keepIn(whole.metadata);
+  if (const std::string warning = times.warning(); !warning.empty())
+  {
+    whole.warnings.push_back(warning);
+  }
+}
+
 /// Tiles of a survey are neighbours; one that strayed makes all others small in a picture.
 void compareDistances(StoreDescription& whole, const Tiles& tiles)
 {
@@ -318,6 +333,7 @@ Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
   compareColumns(whole, tiles, *columns);
   chooseGrid(whole, grids);
   compareSystems(whole, tiles);
+  compareTimes(whole, tiles);
   compareDistances(whole, tiles);
   whole.rangesAreSampled = std::any_of(
     tiles.begin(), tiles.end(), [](const auto& tile) { return tile->rangesAreSampled; });

@@ -166,6 +166,11 @@ void vtkOpenGLPointFrontPicture::RenderPieceDraw(vtkRenderer* ren, vtkActor* act
 {
   this->DrawingVertices = false;
   this->DrawingSelection = false;
+  // The property may cull faces, but a picture is of points, which have none.
+  vtkOpenGLState* const state =
+    static_cast<vtkOpenGLRenderWindow*>(ren->GetRenderWindow())->GetState();
+  const vtkOpenGLState::ScopedglEnableDisable culling(state, GL_CULL_FACE);
+  state->vtkglDisable(GL_CULL_FACE);
   vtkTextureObject* const textures[] = { this->Drawing->colour, this->Drawing->depth,
     this->Drawing->ids };
   for (vtkTextureObject* texture : textures)
@@ -180,9 +185,7 @@ void vtkOpenGLPointFrontPicture::RenderPieceDraw(vtkRenderer* ren, vtkActor* act
     // VTK selects points without a depth mask: it relies on the depths of the picture before. A
     // renderer of a layer above clears them in its viewport, ParaView on a rank that shows what all
     // drew; and what has no depth is nothing to those who composite by it.
-    static_cast<vtkOpenGLRenderWindow*>(ren->GetRenderWindow())
-      ->GetState()
-      ->vtkglDepthMask(GL_TRUE);
+    state->vtkglDepthMask(GL_TRUE);
   }
   vtkOpenGLHelper& triangle = this->Primitives[PrimitiveTris];
   triangle.PrimitiveType = PrimitiveTris;

@@ -227,6 +227,35 @@ TEST(Citizenship, TheStateOfOtherActorsIsLeftAlone)
   EXPECT_EQ(alone.lit(), 9 * 25);
 }
 
+/// VTK's mappers draw points whatever the property says of faces.
+TEST(Citizenship, PointsHaveNoFacesToCull)
+{
+  for (const std::string technique : { "", "splats", "ewa" })
+  {
+    for (const int backend : { vtkPointFrontMapper::OPENGL, vtkPointFrontMapper::SOFTWARE })
+    {
+      Scene scene(planeStore("faces", 30, 50));
+      scene.mapper->SetBackend(backend);
+      vtkNew<vtkPointFrontStyle> style;
+      const std::string sheet = R"({"default": {"technique": ")" + technique +
+        R"(", "size": {"mode": "fixed", "metres": 0.2}}})";
+      ASSERT_TRUE(technique.empty() || style->LoadJSON(sheet));
+      scene.mapper->SetStyle(technique.empty() ? nullptr : style.GetPointer());
+      const Picture usual = scene.draw();
+      EXPECT_GT(usual.lit(), 800);
+      vtkProperty* const property = scene.actor->GetProperty();
+      auto* const window = vtkOpenGLRenderWindow::SafeDownCast(scene.window);
+      for (const int sides : { 1, 2, 3 })
+      {
+        property->SetFrontfaceCulling(sides & 1);
+        property->SetBackfaceCulling(sides >> 1);
+        EXPECT_EQ(differing(scene.draw(), usual), 0) << technique << backend << sides;
+        EXPECT_EQ(window->GetState()->GetEnumState(GL_CULL_FACE), glIsEnabled(GL_CULL_FACE) != 0);
+      }
+    }
+  }
+}
+
 TEST(Citizenship, AnInputWithoutAStoreIsAnErrorNotACrash)
 {
   Scene scene(planeStore("no_store", 3, 500));

@@ -294,6 +294,10 @@ std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapp
   ResolvedStyle style;
   style.colouring = colouringOf(mapper, store);
   style.map = mapOf(mapper, style.colouring);
+  if (style.map)
+  {
+    style.colouring.placeBase(*style.map);
+  }
   style.flat = flatColour(actor);
   style.opacity = actor->GetForceOpaque() ? 1.0 : actor->GetProperty()->GetOpacity();
   style.size.mode = SplatSize::Mode::Pixels;

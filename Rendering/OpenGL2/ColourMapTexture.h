@@ -16,7 +16,8 @@ namespace pointfront
 {
 
 /// A colour map as a texture; see glsl/ColourMapTexture.glsl. A new map remakes the texture and
-/// touches no point. Threads  that of the GL context, current in all functions but the constructor.
+/// touches no point, unless PointColouring::placeBase() moves the base of their values.
+/// Threads  that of the GL context, current in all functions but the constructor.
 class ColourMapTexture
 {
 public:

@@ -82,6 +82,39 @@ class Backends(SceneTest):
                 alike = (abs(mine - other).max(axis=2) <= TOLERANCE).mean()
                 self.assertGreaterEqual(alike, LEAST_ALIKE, what)
 
+    def test_values_far_off_change_no_other(self):
+        """A time of 0 among GPS times, "no data", infinities: the others keep their colours."""
+        count = 2500
+        times = 297700000 + 0.016 * numpy.arange(count)
+        columns = {"gps_time": times, "lowest": numpy.arange(count) % 50 - 25.3,
+                   "infinite": numpy.arange(count) % 50 - 25.3, "constant": numpy.full(count, 5.0)}
+        usual = {name: values.copy() for name, values in columns.items()}
+        columns["gps_time"][7] = 0
+        columns["lowest"][7] = -3.4028234663852886e38
+        columns["infinite"][::10] = -numpy.inf
+        columns["infinite"][5::10] = numpy.inf
+        columns["constant"][7] = -numpy.inf
+        names = ("infinite", "gps_time", "lowest", "constant")
+        stores = []
+        for number, made in enumerate((columns, usual)):
+            path = self.folder / f"{number}.csv"
+            rows = zip(*(made[name].tolist() for name in names))
+            lines = (",".join(map(repr, (i % 50, i // 50, 0, *row))) for i, row in enumerate(rows))
+            path.write_text("\n".join(("x,y,z," + ",".join(names), *lines)) + "\n")
+            stores.append(self.build(path, name=f"{number}.pfront"))
+        for name in names:
+            words = ("--color-by", name, "--view", "top", "--point-size", "4")
+            mine, other = (self.drawn(backend, stores[0], *words)
+                           for backend in ("software", "opengl"))
+            plain = self.drawn("software", stores[1], *words)
+            seen = (mine != (255, 0, 255)).any(axis=2)
+            self.assertGreater(seen.mean(), 0.1, name)
+            alike = (abs(mine - other).max(axis=2) <= TOLERANCE)[seen].mean()
+            self.assertGreaterEqual(alike, LEAST_ALIKE, name)
+            # A tenth of them lies far off on each side, or one does: the others' colours stay.
+            alike = (abs(mine - plain).max(axis=2) <= 16)[seen].mean()
+            self.assertGreaterEqual(alike, 0.7 if name == "infinite" else 0.99, name)
+
     def test_pictures_without_a_point(self):
         """Nobody knows before drawing what nodes of clouds in place have, nor that points of
         stores lie beside the view, or meet two conditions apart."""

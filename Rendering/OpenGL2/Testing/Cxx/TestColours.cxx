@@ -246,4 +246,107 @@ TEST(Colours, LargeTimesKeepTheirFractions)
   EXPECT_GE(seen, 90);
 }
 
+/// 20 * 20 points whose times grow by 0.01 from `first`, but for one.
+std::string timesWithOneFarOff(double first, double farOff)
+{
+  return storeOf("far", 400,
+    [=](std::size_t i)
+    {
+      Sample sample;
+      sample.position = { static_cast<int>(i % 20) * 100 - 950,
+        static_cast<int>(i / 20) * 100 - 950, 0 };
+      sample.time = i == 5 ? farOff : first + 0.01 * static_cast<double>(i);
+      return sample;
+    });
+}
+
+/// Coloured by time, with a colour of its own below and above the table's range.
+struct Times : Scene
+{
+  vtkNew<vtkLookupTable> table;
+
+  explicit Times(const std::string& store)
+    : Scene(store)
+  {
+    actor->GetProperty()->SetPointSize(3);
+    table->SetBelowRangeColor(1.0, 1.0, 1.0, 1.0);
+    table->UseBelowRangeColorOn();
+    table->SetAboveRangeColor(0.5, 0.5, 0.5, 1.0);
+    table->UseAboveRangeColorOn();
+    colour(mapper);
+  }
+  void colour(vtkMapper* by)
+  {
+    by->SetScalarModeToUsePointFieldData();
+    by->SelectColorArray("gps_time");
+    by->SetLookupTable(table);
+    by->UseLookupTableScalarRangeOn();
+  }
+  /// In both back ends, but for points on the border of two entries.
+  void expectColoursOfVtk(const std::string& what)
+  {
+    const Picture ours = draw();
+    mapper->SetBackendToSoftware();
+    const Picture software = draw();
+    mapper->SetBackendToOpenGL();
+    auto plain = inMemory();
+    colour(plain);
+    actor->SetMapper(plain);
+    const Picture theirs = draw();
+    actor->SetMapper(mapper);
+    EXPECT_EQ(ours.lit(), 400 * 9) << what;
+    EXPECT_LE(differing(ours, theirs), 9) << what;
+    EXPECT_LE(differing(ours, software), 9) << what;
+  }
+};
+
+TEST(Colours, OneValueFarOffChangesNoOther)
+{
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  constexpr double lowest = -3.4028234663852886e38;
+  for (const double first : { 297700000.0, 1.0 })
+  {
+    for (const double farOff : { 0.0, -99999.0, -1e10, lowest, -1e300, -infinite, infinite, 1e300 })
+    {
+      Times scene(timesWithOneFarOff(first, farOff));
+      const std::string what = (testing::Message() << first << " and " << farOff).GetString();
+      // Away from the values, so that none lies on the border of two entries.
+      scene.table->SetTableRange(first - 0.003, first + 4.001);
+      scene.table->Build();
+      scene.expectColoursOfVtk(what);
+      scene.table->SetTableRange(first + 1.003, first + 2.001);
+      scene.expectColoursOfVtk(what + ", a part of the range");
+    }
+  }
+}
+
+TEST(Colours, OneValueFarOffChangesNoLogarithm)
+{
+  Times scene(timesWithOneFarOff(0.5, -1e10));
+  scene.table->SetScaleToLog10();
+  scene.table->SetTableRange(0.4997, 4.003);
+  scene.table->Build();
+  scene.expectColoursOfVtk("-1e10");
+}
+
+TEST(Colours, ARangeThatIsDraggedUploadsPointsNowAndThen)
+{
+  Times scene(timesWithOneFarOff(297700000.0, 0.0));
+  auto* gl = vtkOpenGLPointFrontMapper::SafeDownCast(scene.mapper);
+  ASSERT_NE(gl, nullptr);
+  scene.table->SetTableRange(297700000.0 + 0.503, 297700000.0 + 1.001);
+  scene.table->Build();
+  scene.draw();
+  const auto first = gl->GetUploadedBytes();
+  EXPECT_EQ(first, 400 * (12 + 4));
+  for (int step = 1; step <= 20; ++step)
+  {
+    const double low = 297700000.0 + 0.503 + 0.05 * step;
+    scene.table->SetTableRange(low, low + 0.498);
+    scene.draw();
+  }
+  EXPECT_LE(gl->GetUploadedBytes() - first, 400 * 4);
+  scene.expectColoursOfVtk("dragged");
+}
+
 } // namespace

@@ -11,7 +11,7 @@ namespace pointfront
 namespace
 {
 /// Three levels, one node each: 100, 20,000 and 5 points. Point i of a level has z = i steps of
-/// 0.5 above 1000, intensity i and, in column 1, weight i (NaN for i = 0).
+/// 0.5 above 1000, intensity i and, in column 1, weight i (NaN and infinities for i < 3).
 class Chain final : public NodeReader
 {
 public:
@@ -39,7 +39,8 @@ public:
       for (std::uint32_t i = 0; i < points[index]; ++i)
       {
         const auto integer = static_cast<std::uint16_t>(i);
-        const float real = i == 0 ? std::nanf("") : static_cast<float>(i);
+        const float none[] = { std::nanf(""), HUGE_VALF, -HUGE_VALF };
+        const float real = i < 3 ? none[i] : static_cast<float>(i);
         std::memcpy(bytes.data() + i * schema[column].bytes(),
           column == 0 ? static_cast<const void*>(&integer) : &real, schema[column].bytes());
       }
@@ -100,7 +101,8 @@ TEST(StoreSample, QuantilesAreOfWorldZAndOfStoredValues)
   EXPECT_EQ(sample.elevationQuantile(1.0), 1000.0 + 0.5 * 19999);
   EXPECT_EQ(sample.columnQuantile(0, 0, 1.0), 19999.0);
   EXPECT_NEAR(sample.columnQuantile(0, 0, 0.5), 9950.0, 1.0);
-  EXPECT_EQ(sample.columnQuantile(1, 0, 0.0), 1.0); // NaN is left out
+  EXPECT_EQ(sample.columnQuantile(1, 0, 0.0), 3.0); // neither NaN nor infinities
+  EXPECT_EQ(sample.columnQuantile(1, 0, 1.0), 19999.0);
 }
 
 TEST(StoreSample, NothingFromNothing)

@@ -1,3 +1,4 @@
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/PointColouring.h"
 
@@ -122,6 +123,106 @@ TEST(PointColouring, LargeValuesAreKeptRelativeToTheLowest)
   ASSERT_EQ(values.size(), 2u);
   EXPECT_EQ(number(values[0]), 0.25f);
   EXPECT_EQ(number(values[1]), 9.5f);
+}
+
+/// By how much the GPU's floats, added as ColourMapTexture adds them, miss `value`.
+double lossOf(const PointColouring& colouring, double value, double low)
+{
+  const auto stored = static_cast<float>(value - colouring.base);
+  const auto shift = static_cast<float>(colouring.base - low);
+  return std::abs(static_cast<double>(stored + shift) - (value - low));
+}
+
+TEST(PointColouring, OneLowValueLeavesTheOthersTheirDigits)
+{
+  ColourRequest request;
+  request.name = "gps_time";
+  for (const double lowest : { 0.0, -1e10, -3.4e38, -infinity, infinity })
+  {
+    StoreDescription store = description();
+    store.ranges[2].components[0] = { lowest, std::max(lowest, 3e8 + 40.0) };
+    for (const std::size_t entries : { 1, 2, 256, 1000, 8192 })
+    {
+      for (const double width : { 1e-3, 1.0, 40.0 })
+      {
+        auto time = *PointColouring::choose(store, request);
+        EXPECT_TRUE(std::isfinite(time.base));
+        ColourMap map;
+        map.entries.resize(entries);
+        map.range = { 3e8 + 0.1, 3e8 + 0.1 + width };
+        time.placeBase(map);
+        for (double share = 0.0; share <= 1.0; share += 0.0625)
+        {
+          const double value = map.range[0] + share * (map.range[1] - map.range[0]);
+          EXPECT_LE(lossOf(time, value, map.range[0]),
+            width / 512.0 / std::min<double>(static_cast<double>(entries), 1024.0))
+            << lowest << ' ' << entries << ' ' << width << ' ' << share;
+        }
+      }
+    }
+  }
+}
+
+TEST(PointColouring, TheBaseStaysWhereFloatsAllowIt)
+{
+  StoreDescription store = description();
+  ColourRequest request;
+  request.name = "gps_time";
+  ColourMap map;
+  map.entries.resize(256);
+  const auto placed = [&](double low, double high)
+  {
+    auto colouring = *PointColouring::choose(store, request);
+    map.range = { low, high };
+    colouring.placeBase(map);
+    return colouring.base;
+  };
+  EXPECT_EQ(placed(3e8, 3e8 + 10.0), 3e8);
+  EXPECT_EQ(placed(3e8 + 9.0, 3e8 + 9.5), 3e8) << "64 widths away at most";
+  store.ranges[2].components[0][0] = 0.0;
+  const double base = placed(3e8 + 0.5, 3e8 + 1.0);
+  EXPECT_NEAR(base, 3e8, 16.0);
+  for (double low = 0.5; low < 4.0; low += 0.1)
+  {
+    EXPECT_EQ(placed(3e8 + low, 3e8 + low + 0.5), base) << "is on a grid";
+  }
+  EXPECT_EQ(placed(1.0, 1.0), 0.0) << "no range";
+  EXPECT_EQ(placed(-infinity, infinity), 0.0) << "no range";
+}
+
+TEST(PointColouring, LogarithmsOfValuesFarAboveTheLowestCountFromZero)
+{
+  StoreDescription store = description();
+  ColourRequest request;
+  request.name = "gps_time";
+  ColourMap map;
+  map.entries.resize(256);
+  map.range = { 0.5, 5.0 };
+  map.logarithmic = true;
+  for (const auto& [lowest, base] :
+    { std::pair(-1e10, 0.0), std::pair(-0.25, -0.25), std::pair(2.0, 2.0) })
+  {
+    store.ranges[2].components[0][0] = lowest;
+    auto time = *PointColouring::choose(store, request);
+    time.placeBase(map);
+    EXPECT_EQ(time.base, base);
+  }
+}
+
+/// Their values are what they are, however far a range is from them.
+TEST(PointColouring, WholeNumbersThatFloatsHoldKeepTheirBase)
+{
+  StoreDescription store = description();
+  ColourRequest request;
+  request.name = "rgb";
+  request.mode = Mode::Table;
+  request.component = 0;
+  ColourMap map;
+  map.entries.resize(256);
+  map.range = { 60000.0, 60001.0 };
+  auto red = *PointColouring::choose(store, request);
+  red.placeBase(map);
+  EXPECT_EQ(red.base, 0.0);
 }
 
 TEST(PointColouring, ScaleAndOffsetAreApplied)

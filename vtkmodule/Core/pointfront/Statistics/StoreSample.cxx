@@ -38,7 +38,7 @@ void appendValues(const Attribute& attribute, const std::vector<std::byte>& byte
     for (std::size_t c = 0; c < attribute.components; ++c)
     {
       const double value = valueAt(attribute.type, bytes.data() + at + c * step);
-      if (!std::isnan(value))
+      if (std::isfinite(value))
       {
         components[c].push_back(value);
       }

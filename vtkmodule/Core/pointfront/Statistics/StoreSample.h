@@ -28,7 +28,7 @@ public:
   /// World z that the share of points is below: 0.5 is the median. 0 without points.
   double elevationQuantile(double share) const;
   /// Likewise of one component of selection[column], as stored (before scale and offset). NaN
-  /// values are left out.
+  /// and infinite values are left out.
   double columnQuantile(std::size_t column, std::size_t component, double share) const;
 
 private:

@@ -7,6 +7,7 @@
 #include "pointfront/Style/ComponentName.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -46,17 +47,24 @@ Range wholeOf(const StoreDescription& store, const AttributeComponent& part)
                                 : Range{ infinity, -infinity };
 }
 
+bool isFinite(const Range& range)
+{
+  return std::isfinite(range[0]) && std::isfinite(range[1]);
+}
+
+/// Finite: over an infinite range all colours would be one.
 Range usable(const Range& robust, const Range& whole)
 {
   if (robust[0] < robust[1])
   {
     return robust;
   }
-  if (whole[0] < whole[1])
+  if (whole[0] < whole[1] && isFinite(whole))
   {
     return whole;
   }
-  const double low = whole[0] <= whole[1] ? whole[0] : 0.0;
+  const Range& one = isFinite(whole) ? whole : robust;
+  const double low = isFinite(one) ? one[0] : 0.0;
   return { low, low + 1.0 };
 }
 

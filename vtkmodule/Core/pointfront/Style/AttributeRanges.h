@@ -18,7 +18,7 @@ namespace pointfront
 /// one picture, so the same colour means the same value in each of them.
 /// Range    2 % to 98 % of a sample of the points (StoreSample), so that a few outliers do not use
 ///          up the colours. It is the whole range if these are equal, or if no sample could be
-///          taken.
+///          taken. Infinite values do not count.
 /// Cost     the first time that an attribute is asked for, some ten thousand points of each store
 ///          are read; later nothing.
 /// Threads  const functions are safe from any thread.

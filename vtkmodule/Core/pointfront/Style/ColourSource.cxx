@@ -237,6 +237,7 @@ Result<ResolvedColour> resolveColour(
       return map.error();
     }
     colour.map = *map;
+    colour.colouring.placeBase(**map);
   }
   return colour;
 }

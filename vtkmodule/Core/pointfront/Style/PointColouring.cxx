@@ -19,6 +19,14 @@ namespace
 
 /// Longest table of one entry for each integer; longer ones are sampled.
 constexpr std::int64_t mostIntegers = 8192;
+/// Floats hold all whole numbers up to this one.
+constexpr double mostExact = 1 << 24;
+/// Entries of a longer map differ by less than colours of 8 bits tell apart.
+constexpr double mostEntries = 1024.0;
+/// How far from the base the ends of a range of one entry may lie. Two floats so far are rounded,
+/// the value and the range's low end, by 2^-24 of it each: together 1/512 of an entry, by which
+/// entries begin early (ColourMap.cxx).
+constexpr double mostFromBase = 1 << 14;
 
 bool isInteger(ScalarType type)
 {
@@ -157,10 +165,13 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
     const bool known = range[0] <= range[1];
     const auto world = [&](double stored)
     { return colouring.inBytes(stored * attribute.scale + attribute.offset); };
-    colouring.base = known ? std::min(world(range[0]), world(range[1])) : 0.0;
-    if (known && isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0 &&
-      colouring.inBytes(certain[1]) - colouring.inBytes(certain[0]) <
-        static_cast<double>(mostIntegers))
+    const double lowest = known ? std::min(world(range[0]), world(range[1])) : 0.0;
+    colouring.base = std::isfinite(lowest) ? lowest : 0.0;
+    const double width = colouring.inBytes(certain[1]) - colouring.inBytes(certain[0]);
+    const bool whole =
+      isInteger(attribute.type) && attribute.scale == 1.0 && attribute.offset == 0.0;
+    colouring.exact = known && whole && width <= mostExact;
+    if (known && whole && width < static_cast<double>(mostIntegers))
     {
       colouring.integers =
         std::array<std::int64_t, 2>{ static_cast<std::int64_t>(colouring.inBytes(certain[0])),
@@ -168,6 +179,29 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
     }
   }
   return colouring;
+}
+
+void PointColouring::placeBase(const ColourMap& map)
+{
+  const double low = map.range[0];
+  const double width = map.range[1] - low;
+  if (kind != Kind::Table || heights || exact || !(width > 0.0) || !std::isfinite(width))
+  {
+    return;
+  }
+  if (map.logarithmic)
+  {
+    // Logarithms need the same share of small values as of large ones, as floats of values have.
+    base = base < -low ? 0.0 : base;
+    return;
+  }
+  const double entries = static_cast<double>(map.entries.size());
+  const double most = mostFromBase / std::min(entries, mostEntries) * width;
+  if (std::max(std::abs(low - base), std::abs(map.range[1] - base)) > most)
+  {
+    const double step = std::exp2(std::floor(std::log2(most / 2.0)));
+    base = std::round(low / step) * step;
+  }
 }
 
 ColumnSelection PointColouring::columns() const

@@ -2,6 +2,7 @@
 
 #include "pointfront/Store/NodeReader.h"
 #include "pointfront/Store/StoredCloud.h"
+#include "pointfront/Style/ColourMap.h"
 
 #include <array>
 #include <cstdint>
@@ -65,7 +66,9 @@ struct PointColouring
   Kind kind = Kind::Flat;
   std::uint32_t column = 0;
   int component = 0; ///< -1: magnitude
-  double base = 0.0; ///< world value that float 0 stands for: floats keep large GPS times apart
+  /// World value that float 0 stands for: floats keep large GPS times apart. Finite.
+  double base = 0.0;
+  bool exact = false; ///< Table: floats hold all values less the column's lowest one as they are
   bool absolute = false; ///< Table: of the component
   /// Direct: integer components use all bits of their type. Table: values are their upper bytes.
   bool wide = false;
@@ -80,6 +83,12 @@ struct PointColouring
   static std::optional<PointColouring> choose(const StoreDescription& description,
     const ColourRequest& request, std::shared_ptr<const ClassHeights> heights = nullptr);
   static bool wantsHeights(const StoreDescription& description, const ColourRequest& request);
+  /// Moves the base of choose() to the range of `map` where floats so far from it are coarser than
+  /// the map's entries: one GPS time of 0, or one "no data" of -3.4e38, would give all other points
+  /// one colour. Values far from the range lose digits instead, and have the colours of its ends.
+  /// Stays      where it is as far as floats allow, and on a grid of many widths of the range
+  ///            beyond: another base means that all values are uploaded again.
+  void placeBase(const ColourMap& map);
 
   /// Whether a point has a value on the GPU.
   bool hasValues() const { return kind == Kind::Direct || kind == Kind::Table; }

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """One scene of many stores against one store of the same points.
 
-    Testing/Benchmarks/many_stores.py TOOL ONE.pfront FOLDER_OF_STORES [--memory 96M]
+    Testing/Benchmarks/many_stores.py TOOL ONE.pfront FOLDER_OF_STORES [--memory 128M]
                                       [--frame-ms MS] [--work DIR]
 
 Both are drawn complete from the disk cache, then along the same orbit in motion, with the same
@@ -80,7 +80,7 @@ def main():
     options.add_argument("tool")
     options.add_argument("one")
     options.add_argument("folder", type=pathlib.Path)
-    options.add_argument("--memory", default="96M")
+    options.add_argument("--memory", default="128M")
     options.add_argument("--frame-ms", type=float, default=100.0)
     options.add_argument("--work", type=pathlib.Path)
     given = options.parse_args()

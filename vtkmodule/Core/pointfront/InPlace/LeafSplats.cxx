@@ -2,7 +2,7 @@
 
 #include "pointfront/InPlace/RunList.h"
 #include "pointfront/Trees/BuiltTree.h"
-#include "pointfront/Trees/CoveredArea.h"
+#include "pointfront/Trees/NeighbourDistances.h"
 #include "pointfront/Trees/Sampler.h"
 
 #include <algorithm>
@@ -17,6 +17,10 @@ namespace
 /// Ratio of radius to spacing of points that are chosen at random: the quantile that NodeSplat
 /// takes, of a white noise on a plane (docs/adr/0017).
 constexpr double randomRatio = 1.58;
+/// Crowns and strips that overlap have up to so many times the surface of their squares. A picture
+/// shows them as densely as the ground, so only what is more is taken for a wall or a volume.
+constexpr double mostOfGround = 4.0;
+constexpr double leastOfWalls = 8.0;
 /// A leaf of more points is one of many slices of a place: its points lie over one another.
 constexpr std::uint64_t mostPoints = std::uint64_t(1) << 20;
 
@@ -70,7 +74,7 @@ double LeafSplats::pointSpacing(NodeIndex node) const
 {
   const QuadNode& from = tree_.nodes()[node];
   const double drawn = std::ldexp(static_cast<double>(from.points), -from.logStep);
-  return std::sqrt(liftOf_[node] * from.area * stepArea_ / drawn);
+  return std::sqrt(nodeLifts_[node] * from.area * stepArea_ / drawn);
 }
 
 double LeafSplats::spacing(NodeIndex node) const
@@ -78,6 +82,19 @@ double LeafSplats::spacing(NodeIndex node) const
   const double copies = points_ > 0 ? double(points_) / double(places_) : 1.0;
   const double every = std::ldexp(1.0, tree_.nodes()[node].logStep); // a point drawn of so many
   return pointSpacing(node) * std::sqrt(std::max(1.0, copies / every));
+}
+
+/// A cell may be far wider than the wall in it, so distances from above would say too much of how
+/// upright it is: points at random lie half of their spacing from the nearest one.
+double LeafSplats::liftOf(NodeIndex leaf, const NeighbourDistances& distances) const
+{
+  const QuadNode& square = tree_.nodes()[leaf];
+  const double spacing = std::sqrt(square.area * stepArea_ / double(square.points));
+  const double above = std::max(distances.fromAbove, 0.5 * spacing);
+  const double times = distances.inSpace > distances.fromAbove ? distances.inSpace / above : 1.0;
+  const double lift = times * times;
+  const double rise = std::clamp((lift - mostOfGround) / (leastOfWalls - mostOfGround), 0.0, 1.0);
+  return 1.0 + rise * (std::max(lift, leastOfWalls) - 1.0);
 }
 
 void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
@@ -99,9 +116,7 @@ void LeafSplats::look(NodeIndex node, const std::vector<std::byte>& list)
     released_(run.first, run.first + run.count);
   }
   const auto m = static_cast<std::size_t>(found - measured_.begin());
-  const CoveredArea area = CoveredArea::of(positions, scale_);
-  const double flat = std::max(area.fromAbove, tree_.nodes()[node].area * stepArea_);
-  lifts_[m] = flat > 0.0 ? std::max(1.0, area.surface / flat) : 1.0;
+  lifts_[m] = liftOf(node, NeighbourDistances::of(positions, scale_));
   if (isSlice(node)) // its points lie over those of other slices
   {
     return;
@@ -136,7 +151,7 @@ double LeafSplats::nearby(const std::vector<double>& ofMeasured, NodeIndex leaf)
 void LeafSplats::finish()
 {
   const std::vector<QuadNode>& nodes = tree_.nodes();
-  liftOf_.assign(nodes.size(), 1.0);
+  nodeLifts_.assign(nodes.size(), 1.0);
   for (std::size_t i = nodes.size(); i-- > 0;) // children come behind their parent
   {
     const QuadNode& node = nodes[i];
@@ -144,13 +159,13 @@ void LeafSplats::finish()
     double area = 0.0;
     for (NodeIndex c = node.firstChild; c < node.firstChild + node.childCount; ++c)
     {
-      surface += liftOf_[c] * nodes[c].area;
+      surface += nodeLifts_[c] * nodes[c].area;
       area += nodes[c].area;
     }
     const double lift = node.leaf() ? nearby(lifts_, static_cast<NodeIndex>(i))
       : area > 0.0                  ? surface / area
                                     : 0.0;
-    liftOf_[i] = std::max(1.0, lift);
+    nodeLifts_[i] = std::max(1.0, lift);
   }
   for (std::size_t m = 0; m < measured_.size(); ++m)
   {

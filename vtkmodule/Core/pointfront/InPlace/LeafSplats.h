@@ -4,6 +4,7 @@
 #include "pointfront/InPlace/QuadTree.h"
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Store/Hierarchy.h"
+#include "pointfront/Trees/NeighbourDistances.h"
 #include "pointfront/Trees/NodeSplat.h"
 
 #include <cstddef>
@@ -19,7 +20,7 @@ namespace pointfront
 ///         is a trait of how a scanner works. The others have the ratio of those beside them.
 /// Inner   nodes draw points at random: a constant ratio.
 /// Upright squares hold more surface than their area where walls stand in them: as much more as in
-///         the measured leaves beside them (CoveredArea.h).
+///         the measured leaves beside them, which NeighbourDistances.h tells.
 /// Places  of the measured leaves, against their points: all nodes have that share.
 /// Cost    that of at most `mostMeasured` leaves, whatever the file holds.
 /// Threads one.
@@ -46,6 +47,8 @@ private:
   /// have none.
   double nearby(const std::vector<double>& ofMeasured, NodeIndex leaf) const;
   bool isSlice(NodeIndex node) const;
+  /// Surface in a measured leaf's square, of the square's area.
+  double liftOf(NodeIndex leaf, const NeighbourDistances& distances) const;
 
   const QuadTree& tree_;
   const GridRecords& records_;
@@ -56,7 +59,7 @@ private:
   std::vector<NodeIndex> measured_; ///< leaves, ascending
   std::vector<double> radii_; ///< theirs, then their ratios to pointSpacing(); 0: none was found
   std::vector<double> lifts_; ///< theirs: surface in their squares, of the squares' area
-  std::vector<double> liftOf_; ///< that of each node
+  std::vector<double> nodeLifts_; ///< that of each node
   std::uint64_t points_ = 0; ///< theirs
   std::uint64_t places_ = 0;
 };

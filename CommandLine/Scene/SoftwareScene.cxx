@@ -350,7 +350,7 @@ Result<std::optional<SoftwareScene::SeenPoint>> SoftwareScene::pick(
   target_.keepPoints = true;
   const Result<FrameRecord> drawn = renderFrame();
   target_.keepPoints = false;
-  const std::vector<PixelPoint> points = std::move(target_.points);
+  const PictureValues<PixelPoint> points = std::move(target_.points);
   target_.points = {};
   if (!drawn)
   {

@@ -1,9 +1,11 @@
 #pragma once
 
+#include "LargePages.h"
 #include "RasterBatch.h"
 
 #include <cstdint>
 #include <memory>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,6 +16,8 @@ namespace pointfront
 template <typename T>
 class RasterBuffer
 {
+  static_assert(std::is_trivially_default_constructible_v<T> && std::is_trivially_copyable_v<T>);
+
 public:
   RasterBuffer() = default;
   RasterBuffer(RasterBuffer&& other) noexcept
@@ -34,7 +38,7 @@ public:
     if (wanted > size_)
     {
       data_.reset();
-      data_ = std::unique_ptr<T[]>(new T[wanted]);
+      data_.reset(static_cast<T*>(allocateInLargePages(wanted * sizeof(T))));
       size_ = wanted;
     }
     return data_.get();
@@ -48,7 +52,7 @@ public:
   }
 
 private:
-  std::unique_ptr<T[]> data_;
+  std::unique_ptr<T[], FreesMemory> data_;
   std::size_t size_ = 0;
 };
 

@@ -13,14 +13,14 @@ namespace
 
 /// Numbers of pixels, of processes that show what is nearest there.
 template <typename Number, typename Shown>
-void shareNumbers(PictureExchange& others, std::vector<Number>& numbers, const Shown& shown)
+void shareNumbers(PictureExchange& others, PictureValues<Number>& numbers, const Shown& shown)
 {
   constexpr float none = std::numeric_limits<float>::infinity();
   if (numbers.empty())
   {
     return;
   }
-  std::vector<float> least(numbers.size(), none);
+  PictureValues<float> least(numbers.size(), none);
   for (std::size_t pixel = 0; pixel < numbers.size(); ++pixel)
   {
     least[pixel] = shown(pixel) ? static_cast<float>(numbers[pixel]) : none;
@@ -66,15 +66,15 @@ void sharePicture(PictureExchange& others, SoftwareTarget& target)
   constexpr float infinity = std::numeric_limits<float>::infinity();
   constexpr std::uint32_t colourOf = 0x00ffffffu; // 24 bits, which a float holds
   const std::size_t count = target.depth.size();
-  std::vector<float>& deciding = target.keepDecided ? target.decided : target.depth;
-  std::vector<float> mine = deciding;
+  PictureValues<float>& deciding = target.keepDecided ? target.decided : target.depth;
+  PictureValues<float> mine = deciding;
   if (!others.nearest(deciding.data(), count))
   {
     return;
   }
   // The nearest have the depth, and among those that have it the least colour: where processes are
   // alike in both, so is the pixel.
-  std::vector<float> colours(count, infinity);
+  PictureValues<float> colours(count, infinity);
   for (std::size_t pixel = 0; pixel < count; ++pixel)
   {
     const bool shown = mine[pixel] == deciding[pixel] && mine[pixel] != infinity;
@@ -83,7 +83,7 @@ void sharePicture(PictureExchange& others, SoftwareTarget& target)
   }
   if (target.keepDecided)
   {
-    const std::vector<float> depths = mine;
+    const PictureValues<float> depths = mine;
     others.nearest(mine.data(), count);
     for (std::size_t pixel = 0; pixel < count; ++pixel)
     {
@@ -91,7 +91,7 @@ void sharePicture(PictureExchange& others, SoftwareTarget& target)
     }
     target.depth = std::move(mine);
   }
-  const std::vector<float> own = colours;
+  const PictureValues<float> own = colours;
   others.nearest(colours.data(), count);
   const auto shown = [&](std::size_t pixel)
   { return own[pixel] == colours[pixel] && own[pixel] != infinity; };

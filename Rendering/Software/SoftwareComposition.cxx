@@ -69,7 +69,7 @@ void put(const TranslucentPixel& nearest, SoftwareTarget& target, std::size_t pi
   }
   if (!target.highlights.empty())
   {
-    const std::vector<std::uint8_t>& marks = nearest.target->highlights;
+    const PictureValues<std::uint8_t>& marks = nearest.target->highlights;
     target.highlights[pixel] = marks.empty() ? std::uint8_t(0) : marks[nearest.pixel];
   }
   if (target.keepPoints)
@@ -281,7 +281,7 @@ void SoftwareComposition::finish(const FrameCamera& camera, const FrameShading& 
   shade(camera, shading, target, all);
   for (auto& [key, part] : parts_)
   {
-    std::vector<float>& depths = part.target.depth;
+    PictureValues<float>& depths = part.target.depth;
     if (!key.mask)
     {
       mark(part.target);

@@ -1,12 +1,12 @@
 #pragma once
 
+#include "LargePages.h"
 #include "PixelRectangle.h"
 
 #include "pointfront/Store/Hierarchy.h"
 
 #include <cstdint>
 #include <limits>
-#include <vector>
 
 namespace pointfront
 {
@@ -34,21 +34,21 @@ struct SoftwareTarget
   int bottom = 0;
   int width = 0;
   int height = 0;
-  std::vector<std::uint32_t> rgba;
-  std::vector<float> depth;
+  PictureValues<std::uint32_t> rgba;
+  PictureValues<float> depth;
   /// The depth that decided who is seen, in the units of depth; empty unless `keepDecided`. Among
   /// several plans that are drawn into one target it decides, too: splats of two clouds meet as
   /// those of one. Pixels that were filled later have none: infinity.
-  std::vector<float> decided;
+  PictureValues<float> decided;
   /// View-space normal, 3 x float a pixel, 0 where there is none; empty unless a plan asks for
   /// light.
-  std::vector<float> normals;
+  PictureValues<float> normals;
   /// ResolvedStyle::highlight of who is in each pixel; empty unless a plan has highlights.
-  std::vector<std::uint8_t> highlights;
+  PictureValues<std::uint8_t> highlights;
   /// ResolvedStyle::look of who is in each pixel; empty unless a plan has several looks.
-  std::vector<std::uint16_t> looks;
+  PictureValues<std::uint16_t> looks;
   /// Who is in each pixel; empty unless `keepPoints`.
-  std::vector<PixelPoint> points;
+  PictureValues<PixelPoint> points;
   bool keepPoints = false;
   bool keepDecided = false;
 

@@ -29,10 +29,10 @@ struct Level
   int bottom = 0;
   int width = 0;
   int height = 0;
-  std::vector<float> depth;
-  std::vector<std::uint32_t> rgba;
-  std::vector<std::uint8_t> highlights; ///< empty: nothing stands out
-  std::vector<std::uint16_t> looks; ///< empty: all have one
+  PictureValues<float> depth;
+  PictureValues<std::uint32_t> rgba;
+  PictureValues<std::uint8_t> highlights; ///< empty: nothing stands out
+  PictureValues<std::uint16_t> looks; ///< empty: all have one
 
   std::size_t at(int x, int y) const
   {

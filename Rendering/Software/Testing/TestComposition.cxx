@@ -386,7 +386,7 @@ TEST(Composition, OneRasteriserGoesOnWithEachPart)
   SoftwareRasteriser rasteriser;
   SoftwareComposition composition;
   SoftwareTarget target;
-  std::vector<std::uint32_t> first;
+  PictureValues<std::uint32_t> first;
   for (int frame = 0; frame < 3; ++frame)
   {
     target.reset(size, size);

@@ -112,7 +112,7 @@ struct SeenFrames
   std::uint64_t blended = 0; ///< likewise, through the second pass
   int frames = 0;
   int gained = 0; ///< frames after the first with more points than the one before
-  std::vector<std::vector<float>> depths; ///< depths of each frame
+  std::vector<PictureValues<float>> depths; ///< depths of each frame
 
   double drawnPerPoint() const { return double(drawn) / double(points); }
   double blendedPerPoint() const { return double(blended) / double(points); }
@@ -120,7 +120,7 @@ struct SeenFrames
   double leastCovered(const SoftwareTarget& complete) const
   {
     double least = 1.0;
-    for (const std::vector<float>& depth : depths)
+    for (const PictureValues<float>& depth : depths)
     {
       double covered = 0.0, all = 0.0;
       for (std::size_t pixel = 0; pixel < depth.size(); ++pixel)

@@ -298,7 +298,7 @@ TEST(VisiblePoints, ACompletePictureShowsWhatItsPlanSays)
 
 TEST(VisiblePoints, AreTheSameForAnyNumberOfThreads)
 {
-  std::vector<std::uint32_t> first;
+  PictureValues<std::uint32_t> first;
   for (const unsigned threads : { 1u, 2u, 7u })
   {
     PanOverSurface scene;

@@ -2,13 +2,15 @@
 """A survey of many files: one store of all, and tiles by one worker and by several.
 
 usage: Testing/Benchmarks/workers.py TOOL --package DIR [--inputs N] [--points N] [--workers N]
-       [--tile METRES] [--memory SIZE] [--kill SECONDS] [--work DIR] [-- OPTIONS OF THE BUILD]
+       [--tile METRES] [--memory SIZE] [--decode once|twice] [--several-only] [--kill SECONDS]
+       [--work DIR] [-- OPTIONS OF THE BUILD]
 
 DIR is the folder that the Python package `pointfront` of the same build lies in. Generates INPUTS
 LAZ files of POINTS each that lie side by side, eight landscapes in turn. Builds one store with as
 many threads as there are workers, then tiles by `cluster build` with one worker and with several,
 of one thread each. Prints seconds on the clock, the ratios, which mean something on a machine that
 does nothing else, and the largest resident memory of any process (Dask's included) beside --memory.
+With --several-only, builds the tiles by several workers alone. --decode is that of `cluster build`.
 
 With --kill, one more build by several workers loses a worker each SECONDS, and once the command
 itself with its scheduler; it is given again until it ends, and its tiles must have the same bytes.
@@ -16,7 +18,7 @@ itself with its scheduler; it is given again until it ends, and its tiles must h
 
 import argparse
 import contextlib
-import filecmp
+import hashlib
 import json
 import math
 import os
@@ -130,11 +132,31 @@ def beset(command, environment, every):
     return time.monotonic() - begin, deaths
 
 
-def same(one, other):
-    names = sorted(path.name for path in (one / "tiles").iterdir())
-    if names != sorted(path.name for path in (other / "tiles").iterdir()):
-        return False
-    return not any(filecmp.cmpfiles(one / "tiles", other / "tiles", names, shallow=False)[1:])
+def digests(land):
+    """SHA-256 of each tile by its name: two surveys of 10^9 points need not be on disk at once."""
+    found = {}
+    for path in (land / "tiles").iterdir():
+        with open(path, "rb") as file:
+            found[path.name] = hashlib.file_digest(file, "sha256").hexdigest()
+    return found
+
+
+def compare(work, args, sources, common, told, cluster, environment):
+    """Seconds of one store, of tiles by one worker and by several; the last tiles stay."""
+    store = work / "one.pfront"
+    one = told(f"one store, {args.workers} threads", Measured(
+        [args.tool, "build", sources, "-o", store, "--threads", args.workers, *common]))
+    store.unlink()
+    clock = {}
+    for workers in (1, args.workers):
+        name = f"land-{workers}"
+        clock[workers] = told(f"tiles, {workers} workers",
+                              Measured(cluster(name, workers), environment))
+        if workers == 1 and args.workers > 1:
+            shutil.rmtree(work / name)
+    several = clock[args.workers]
+    print(f"{args.workers} workers: {clock[1] / several:.2f} times one; "
+          f"{several / one:.2f} times the seconds of one store; --memory {args.memory}", flush=True)
 
 
 def main():
@@ -146,11 +168,13 @@ def main():
     parser.add_argument("--workers", type=int, default=2)
     parser.add_argument("--tile", type=float, help="(the edge of a file)")
     parser.add_argument("--memory", default="1G")
+    parser.add_argument("--decode", choices=("once", "twice"), default="once")
+    parser.add_argument("--several-only", action="store_true")
     parser.add_argument("--kill", type=float)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("options", nargs="*")
     args = parser.parse_args()
-    tool = args.tool.resolve()
+    tool = args.tool = args.tool.resolve()
     environment = {"PYTHONPATH": str(args.package.resolve())}
     common = ["--memory", args.memory, "--json", "--progress", "none", *args.options]
     with tempfile.TemporaryDirectory(dir=args.work) as folder:
@@ -160,7 +184,7 @@ def main():
         def cluster(name, workers):
             return [sys.executable, "-m", "pointfront", "cluster", "build", sources,
                     "-o", work / name, "--tile", args.tile or edge, "--local", workers,
-                    "--threads", 1, *common]
+                    "--threads", 1, "--decode", args.decode, *common]
 
         def told(name, running):
             took = running.seconds()
@@ -168,28 +192,19 @@ def main():
                   flush=True)
             return took
 
-        store = work / "one.pfront"
-        one = told(f"one store, {args.workers} threads", Measured(
-            [tool, "build", sources, "-o", store, "--threads", args.workers, *common]))
-        store.unlink()
-        clock = {}
-        for workers in (1, args.workers):
-            name = f"land-{workers}"
-            clock[workers] = told(f"tiles, {workers} workers",
-                                  Measured(cluster(name, workers), environment))
-            if workers == 1 and args.workers > 1:
-                shutil.rmtree(work / name)
-        several = clock[args.workers]
-        print(f"{args.workers} workers: {clock[1] / several:.2f} times one; "
-              f"{several / one:.2f} times the seconds of one store; --memory {args.memory}",
-              flush=True)
+        land = work / f"land-{args.workers}"
+        if args.several_only:
+            told(f"tiles, {args.workers} workers",
+                 Measured(cluster(land.name, args.workers), environment))
+        else:
+            compare(work, args, sources, common, told, cluster, environment)
         if args.kill:
-            # A folder's name is the collection's, so the land without deaths moves away.
-            land = work / f"land-{args.workers}"
-            land.rename(work / "calm")
+            # A folder's name is the collection's, so the land with deaths has the same.
+            calm = digests(land)
+            shutil.rmtree(land)
             took, deaths = beset(cluster(land.name, args.workers), environment, args.kill)
             print(f"a death each {args.kill:g} s, {deaths} deaths: {took:.1f} s, "
-                  f"{'the same' if same(land, work / 'calm') else 'OTHER'} bytes")
+                  f"{len(calm)} tiles, {'the same' if digests(land) == calm else 'OTHER'} bytes")
 
 
 if __name__ == "__main__":

@@ -63,7 +63,7 @@ nlohmann::ordered_json colourLegend(const StoreDescription& store, const Resolve
     const double part = static_cast<double>(i) / rampSteps;
     const double low = map.range[0];
     const double value = map.logarithmic ? low * std::pow(map.range[1] / low, part)
-                                         : low + part * (map.range[1] - low);
+                                         : low * (1.0 - part) + part * map.range[1];
     colours.push_back(hexOf(map.at(value)));
   }
   return legend;

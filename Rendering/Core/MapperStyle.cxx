@@ -102,10 +102,11 @@ ColourMap sampleRange(vtkScalarsToColors& table)
   const int size = !uneven && available > 0 && available <= continuousEntries
     ? static_cast<int>(available)
     : continuousEntries;
+  const double halfWidth = high / 2.0 - low / 2.0; // the whole may be beyond doubles
   std::vector<double> values;
   for (int entry = -1; entry <= size; ++entry)
   {
-    const double middle = low + (entry + 0.5) * (high - low) / size;
+    const double middle = 2.0 * (low / 2.0 + (entry + 0.5) * halfWidth / size);
     values.push_back(map.logarithmic ? std::pow(10.0, middle) : middle);
   }
   return filled(std::move(map), table, std::move(values));
@@ -296,7 +297,7 @@ std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapp
   style.map = mapOf(mapper, style.colouring);
   if (style.map)
   {
-    style.colouring.placeBase(*style.map);
+    style.colouring.fitTo(*style.map);
   }
   style.flat = flatColour(actor);
   style.opacity = actor->GetForceOpaque() ? 1.0 : actor->GetProperty()->GetOpacity();

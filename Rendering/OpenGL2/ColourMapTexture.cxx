@@ -4,7 +4,9 @@
 #include <vtkShaderProgram.h>
 #include <vtkTextureObject.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,6 +17,8 @@ namespace
 
 /// So many are left out of the integers of heights.
 constexpr double mostSteps = 1 << 30;
+/// A range that is narrower than floats has one height, which is 0 above its low end.
+constexpr double largestScale = std::numeric_limits<float>::max();
 
 } // namespace
 
@@ -45,24 +49,23 @@ void ColourMapTexture::activate(
 {
   texture_->Activate();
   const auto entries = static_cast<double>(map_->entries.size());
-  double low = map_->range[0];
-  double high = map_->range[1];
-  if (map_->indexed)
-  {
-    low -= 0.5; // a whole number lies in the middle of its entry
-    high = low + entries;
-  }
-  const double logLow = map_->logarithmic ? std::log10(low) : 0.0;
-  const double width = map_->logarithmic ? std::log10(high) - logLow : high - low;
-  const double scale = width != 0.0 ? entries / width : 0.0;
-  const double base =
-    colouring.kind == PointColouring::Kind::Elevation ? referenceZ : colouring.base;
+  const bool logarithmic = map_->logarithmic && !colouring.decades;
+  const auto inFloats = [&](double end)
+  { return colouring.decades ? std::log10(end) : end / colouring.unit; };
+  const double low = inFloats(map_->range[0]);
+  const double logLow = logarithmic ? std::log10(low) : 0.0;
+  const double high = inFloats(map_->range[1]);
+  const double width = logarithmic ? std::log10(high) - logLow : high - low;
+  const double scale = map_->indexed ? 1.0 : (width != 0.0 ? entries / width : 0.0);
+  const double base = colouring.kind == PointColouring::Kind::Elevation
+    ? referenceZ
+    : colouring.base / colouring.unit;
   program->SetUniformi("colourTable", texture_->GetTextureUnit());
   program->SetUniformi("tableSize", static_cast<int>(map_->entries.size()));
-  program->SetUniformf("tableShift", static_cast<float>(map_->logarithmic ? base : base - low));
-  program->SetUniformf("tableScale", static_cast<float>(scale));
+  program->SetUniformf("tableShift", static_cast<float>(logarithmic ? base : base - low));
+  program->SetUniformf("tableScale", static_cast<float>(std::min(scale, largestScale)));
   program->SetUniformf("tableLogLow", static_cast<float>(logLow));
-  program->SetUniformi("tableLogarithmic", map_->logarithmic ? 1 : 0);
+  program->SetUniformi("tableScaling", map_->indexed ? 2 : (logarithmic ? 1 : 0));
   const double steps = std::round((low - referenceZ) / stepZ);
   const double lowSteps = std::abs(steps) < mostSteps ? steps : 0.0;
   program->SetUniformi("tableLowSteps", static_cast<int>(lowSteps));

@@ -3,6 +3,7 @@
 #include "pointfront/Points/QuantisationGrid.h"
 #include "pointfront/Style/ResolvedStyle.h"
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>
@@ -52,7 +53,9 @@ inline void appendOne(const PointColouring& colouring, const ColourMap* map, con
       {
         float number;
         std::memcpy(&number, &colours[i], 4);
-        colours[i] = asBytes(map->at(static_cast<double>(number) + colouring.base));
+        const auto value = static_cast<double>(number);
+        colours[i] = asBytes(map->at(
+          colouring.decades ? std::pow(10.0, value) : value * colouring.unit + colouring.base));
       }
       return;
   }

@@ -1,9 +1,14 @@
 #include "Scene.h"
 
+#include "pointfront/Style/StyleSheet.h"
+
 #include <vtkColorTransferFunction.h>
 #include <vtkLookupTable.h>
 
 #include <limits>
+#include <memory>
+#include <string>
+#include <vector>
 
 using namespace pointfront;
 using namespace pointfront::test;
@@ -131,6 +136,53 @@ TEST(Colours, ClassesOfAnIndexedTable)
   EXPECT_EQ(scene.colourOf(picture, 3), (Rgb{ 255, 0, 0 }));
 }
 
+/// The map of classes for times and heights, most of which are no codes.
+TEST(Colours, WhatIsNoCodeHasTheMissingColour)
+{
+  const std::vector<double> times{ -1.0, -0.5, 0.0, 1.0, 5.0, 5.001, 5.3, 5.999, 6.0, 9.5, 254.0,
+    255.0, 255.6, 256.0, 1e5, 1e30, -1e30, std::numeric_limits<double>::quiet_NaN(),
+    std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity() };
+  for (const bool farOff : { false, true })
+  {
+    Scene scene(storeOf("codes", 400,
+      [&](std::size_t i)
+      {
+        Sample sample;
+        const auto row = static_cast<int>(i / 20);
+        sample.position = { static_cast<int>(i % 20) * 100 - 950, row * 100 - 950,
+          row % 2 * 250 + row / 2 % 4 * 1000 - 1000 };
+        const double time = times[i % 20];
+        sample.time = !farOff && std::abs(time) > 1e3 ? 1e3 : time;
+        return sample;
+      }));
+    scene.actor->GetProperty()->SetPointSize(3);
+    for (const char* name : { "gps_time", "elevation" })
+    {
+      const bool isTime = name == std::string("gps_time");
+      auto sheet = std::make_shared<StyleSheet>();
+      ColourMapChoice map;
+      map.kind = ColourMapChoice::Kind::Classification;
+      sheet->standard.colour = ColourSource::ofAttribute(name, map);
+      scene.mapper->SetStyleSheet(sheet);
+      const Picture ours = scene.draw();
+      scene.mapper->SetBackendToSoftware();
+      const Picture software = scene.draw();
+      scene.mapper->SetBackendToOpenGL();
+      EXPECT_EQ(differing(ours, software), 0) << name << ' ' << farOff;
+      int missing = 0;
+      for (int y = 0; y < ours.height; ++y)
+      {
+        for (int x = 0; x < ours.width; ++x)
+        {
+          missing += ours.at(x, y) == Rgb{ 130, 130, 130 } ? 1 : 0;
+        }
+      }
+      EXPECT_GT(missing, isTime ? 2000 : 1000) << name << ' ' << farOff;
+      EXPECT_LT(missing, ours.lit() - 500) << name << ' ' << farOff;
+    }
+  }
+}
+
 TEST(Colours, ALogarithmicTableEqualsVtks)
 {
   const auto store = storeOf("log", 400,
@@ -244,109 +296,6 @@ TEST(Colours, LargeTimesKeepTheirFractions)
     }
   }
   EXPECT_GE(seen, 90);
-}
-
-/// 20 * 20 points whose times grow by 0.01 from `first`, but for one.
-std::string timesWithOneFarOff(double first, double farOff)
-{
-  return storeOf("far", 400,
-    [=](std::size_t i)
-    {
-      Sample sample;
-      sample.position = { static_cast<int>(i % 20) * 100 - 950,
-        static_cast<int>(i / 20) * 100 - 950, 0 };
-      sample.time = i == 5 ? farOff : first + 0.01 * static_cast<double>(i);
-      return sample;
-    });
-}
-
-/// Coloured by time, with a colour of its own below and above the table's range.
-struct Times : Scene
-{
-  vtkNew<vtkLookupTable> table;
-
-  explicit Times(const std::string& store)
-    : Scene(store)
-  {
-    actor->GetProperty()->SetPointSize(3);
-    table->SetBelowRangeColor(1.0, 1.0, 1.0, 1.0);
-    table->UseBelowRangeColorOn();
-    table->SetAboveRangeColor(0.5, 0.5, 0.5, 1.0);
-    table->UseAboveRangeColorOn();
-    colour(mapper);
-  }
-  void colour(vtkMapper* by)
-  {
-    by->SetScalarModeToUsePointFieldData();
-    by->SelectColorArray("gps_time");
-    by->SetLookupTable(table);
-    by->UseLookupTableScalarRangeOn();
-  }
-  /// In both back ends, but for points on the border of two entries.
-  void expectColoursOfVtk(const std::string& what)
-  {
-    const Picture ours = draw();
-    mapper->SetBackendToSoftware();
-    const Picture software = draw();
-    mapper->SetBackendToOpenGL();
-    auto plain = inMemory();
-    colour(plain);
-    actor->SetMapper(plain);
-    const Picture theirs = draw();
-    actor->SetMapper(mapper);
-    EXPECT_EQ(ours.lit(), 400 * 9) << what;
-    EXPECT_LE(differing(ours, theirs), 9) << what;
-    EXPECT_LE(differing(ours, software), 9) << what;
-  }
-};
-
-TEST(Colours, OneValueFarOffChangesNoOther)
-{
-  constexpr double infinite = std::numeric_limits<double>::infinity();
-  constexpr double lowest = -3.4028234663852886e38;
-  for (const double first : { 297700000.0, 1.0 })
-  {
-    for (const double farOff : { 0.0, -99999.0, -1e10, lowest, -1e300, -infinite, infinite, 1e300 })
-    {
-      Times scene(timesWithOneFarOff(first, farOff));
-      const std::string what = (testing::Message() << first << " and " << farOff).GetString();
-      // Away from the values, so that none lies on the border of two entries.
-      scene.table->SetTableRange(first - 0.003, first + 4.001);
-      scene.table->Build();
-      scene.expectColoursOfVtk(what);
-      scene.table->SetTableRange(first + 1.003, first + 2.001);
-      scene.expectColoursOfVtk(what + ", a part of the range");
-    }
-  }
-}
-
-TEST(Colours, OneValueFarOffChangesNoLogarithm)
-{
-  Times scene(timesWithOneFarOff(0.5, -1e10));
-  scene.table->SetScaleToLog10();
-  scene.table->SetTableRange(0.4997, 4.003);
-  scene.table->Build();
-  scene.expectColoursOfVtk("-1e10");
-}
-
-TEST(Colours, ARangeThatIsDraggedUploadsPointsNowAndThen)
-{
-  Times scene(timesWithOneFarOff(297700000.0, 0.0));
-  auto* gl = vtkOpenGLPointFrontMapper::SafeDownCast(scene.mapper);
-  ASSERT_NE(gl, nullptr);
-  scene.table->SetTableRange(297700000.0 + 0.503, 297700000.0 + 1.001);
-  scene.table->Build();
-  scene.draw();
-  const auto first = gl->GetUploadedBytes();
-  EXPECT_EQ(first, 400 * (12 + 4));
-  for (int step = 1; step <= 20; ++step)
-  {
-    const double low = 297700000.0 + 0.503 + 0.05 * step;
-    scene.table->SetTableRange(low, low + 0.498);
-    scene.draw();
-  }
-  EXPECT_LE(gl->GetUploadedBytes() - first, 400 * 4);
-  scene.expectColoursOfVtk("dragged");
 }
 
 } // namespace

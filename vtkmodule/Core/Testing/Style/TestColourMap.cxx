@@ -1,6 +1,9 @@
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Style/ColourMap.h"
 
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 using namespace pointfront;
 
@@ -55,6 +58,26 @@ TEST(ColourMap, BeyondTheRangeAreItsEndsUnlessThereAreOtherColours)
   map.usesBelow = map.usesAbove = true;
   EXPECT_EQ(map.at(0.999), map.below);
   EXPECT_EQ(map.at(3.001), map.above);
+}
+
+TEST(ColourMap, AnIndexedMapHasNoColourForOtherCodes)
+{
+  ColourMap map = steps(2.0, 5.0);
+  map.entries.resize(4);
+  map.indexed = true;
+  map.usesBelow = map.usesAbove = true;
+  for (int code = 2; code < 6; ++code)
+  {
+    EXPECT_EQ(map.at(code)[0], code - 2);
+    for (const double rounding : { -1e-3, 1e-3 }) // 57 steps of 0.1 are no whole number
+    {
+      EXPECT_EQ(map.at(code + rounding)[0], code - 2);
+    }
+  }
+  for (const double other : { 1.0, 6.0, 2.5, 4.003, 1.997, -infinity, infinity, std::nan("") })
+  {
+    EXPECT_EQ(map.at(other), map.missing) << other;
+  }
 }
 
 } // namespace

@@ -1,11 +1,11 @@
 #include "StyledStore.h"
 
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Style/ClassHeights.h"
 #include "pointfront/Style/FilterExpression.h"
 
 #include <gtest/gtest.h>
 
-#include <limits>
 #include <memory>
 
 using namespace pointfront;
@@ -13,8 +13,6 @@ using namespace pointfront::test;
 
 namespace
 {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 AttributeCondition only(const std::string& text)
 {

@@ -6,6 +6,8 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
+#include <utility>
 
 using namespace pointfront;
 using Kind = PointColouring::Kind;
@@ -150,7 +152,7 @@ TEST(PointColouring, OneLowValueLeavesTheOthersTheirDigits)
         ColourMap map;
         map.entries.resize(entries);
         map.range = { 3e8 + 0.1, 3e8 + 0.1 + width };
-        time.placeBase(map);
+        time.fitTo(map);
         for (double share = 0.0; share <= 1.0; share += 0.0625)
         {
           const double value = map.range[0] + share * (map.range[1] - map.range[0]);
@@ -161,6 +163,55 @@ TEST(PointColouring, OneLowValueLeavesTheOthersTheirDigits)
       }
     }
   }
+}
+
+/// Shares of the range are those of floats, and none of them is lost or infinite.
+TEST(PointColouring, RangesBeyondFloatsHaveAUnit)
+{
+  constexpr double most = std::numeric_limits<double>::max();
+  ColourRequest request;
+  request.name = "gps_time";
+  ColourMap map;
+  map.entries.resize(256);
+  for (const auto& [low, high] : { std::pair(-most, most), std::pair(-1e300, 1e300),
+         std::pair(1e200, 2e200), std::pair(1e200, 1e200 * (1.0 + 1e-9)), std::pair(1e-300, 2e-300),
+         std::pair(-1e-310, 1e-310), std::pair(1.0, 2.0) })
+  {
+    StoreDescription store = description();
+    for (const double lowest : { low, -most, 0.0 })
+    {
+      SCOPED_TRACE(testing::Message() << low << " to " << high << ", lowest " << lowest);
+      store.ranges[2].components[0] = { lowest, most };
+      auto time = *PointColouring::choose(store, request);
+      map.range = { low, high };
+      time.fitTo(map);
+      EXPECT_EQ(time.unit == 1.0, high == 2.0);
+      const float first = time.floatOf(low);
+      const float width = time.floatOf(high) - first;
+      ASSERT_TRUE(std::isfinite(256.0f / width));
+      for (double share = 0.0; share <= 1.0; share += 0.0625)
+      {
+        const float place = time.floatOf(low * (1.0 - share) + high * share) - first;
+        EXPECT_NEAR(place / width, share, 1.0 / 256.0 / 256.0) << share;
+      }
+    }
+  }
+}
+
+TEST(PointColouring, LogarithmsBeyondFloatsAreTakenBefore)
+{
+  ColourRequest request;
+  request.name = "gps_time";
+  auto time = *PointColouring::choose(description(), request);
+  ColourMap map;
+  map.logarithmic = true;
+  map.range = { 1e-300, 1e200 };
+  time.fitTo(map);
+  EXPECT_FLOAT_EQ(time.floatOf(1e-150), -150.0f);
+  EXPECT_EQ(time.floatOf(0.0), -infinity);
+  EXPECT_EQ(time.floatOf(-1.0), -infinity);
+  EXPECT_EQ(time.floatOf(infinity), infinity);
+  EXPECT_TRUE(std::isnan(time.floatOf(std::nan(""))));
 }
 
 TEST(PointColouring, TheBaseStaysWhereFloatsAllowIt)
@@ -174,7 +225,7 @@ TEST(PointColouring, TheBaseStaysWhereFloatsAllowIt)
   {
     auto colouring = *PointColouring::choose(store, request);
     map.range = { low, high };
-    colouring.placeBase(map);
+    colouring.fitTo(map);
     return colouring.base;
   };
   EXPECT_EQ(placed(3e8, 3e8 + 10.0), 3e8);
@@ -204,7 +255,7 @@ TEST(PointColouring, LogarithmsOfValuesFarAboveTheLowestCountFromZero)
   {
     store.ranges[2].components[0][0] = lowest;
     auto time = *PointColouring::choose(store, request);
-    time.placeBase(map);
+    time.fitTo(map);
     EXPECT_EQ(time.base, base);
   }
 }
@@ -221,7 +272,7 @@ TEST(PointColouring, WholeNumbersThatFloatsHoldKeepTheirBase)
   map.entries.resize(256);
   map.range = { 60000.0, 60001.0 };
   auto red = *PointColouring::choose(store, request);
-  red.placeBase(map);
+  red.fitTo(map);
   EXPECT_EQ(red.base, 0.0);
 }
 

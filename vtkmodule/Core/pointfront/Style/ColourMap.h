@@ -17,7 +17,8 @@ struct ColourMap
   std::vector<Rgba8> entries; ///< at least one
   std::array<double, 2> range{ 0.0, 1.0 }; ///< low end of the first entry, high end of the last one
   bool logarithmic = false; ///< equal steps of log10; range > 0 then
-  /// Whole numbers from range[0] on have an entry each; nothing lies between two.
+  /// Whole numbers from range[0] on have an entry each; values between two are missing, and so are
+  /// other numbers.
   bool indexed = false;
   Rgba8 below{ 0, 0, 0, 255 };
   Rgba8 above{ 255, 255, 255, 255 };

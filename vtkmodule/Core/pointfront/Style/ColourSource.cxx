@@ -237,7 +237,7 @@ Result<ResolvedColour> resolveColour(
       return map.error();
     }
     colour.map = *map;
-    colour.colouring.placeBase(**map);
+    colour.colouring.fitTo(**map);
   }
   return colour;
 }

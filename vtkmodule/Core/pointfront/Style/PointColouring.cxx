@@ -1,5 +1,6 @@
 #include "pointfront/Style/PointColouring.h"
 
+#include "pointfront/Base/Infinity.h"
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Style/ClassHeights.h"
@@ -27,6 +28,11 @@ constexpr double mostEntries = 1024.0;
 /// the value and the range's low end, by 2^-24 of it each: together 1/512 of an entry, by which
 /// entries begin early (ColourMap.cxx).
 constexpr double mostFromBase = 1 << 14;
+/// Floats hold 2 to this power and its inverse, and as many of them as a map has entries.
+constexpr int mostExponent = 100;
+constexpr double mostInFloats = 0x1p100;
+constexpr double largest = std::numeric_limits<double>::max();
+constexpr int leastUnit = -1000; ///< exponent; doubles hold its inverse
 
 bool isInteger(ScalarType type)
 {
@@ -46,6 +52,11 @@ using Reading = double (*)(const std::byte*);
 Reading readingOf(ScalarType type)
 {
   return visitScalar(type, [](auto zero) -> Reading { return as<decltype(zero)>; });
+}
+
+double farthestOf(const std::array<double, 2>& range, double from)
+{
+  return std::max(std::abs(range[0] - from), std::abs(range[1] - from));
 }
 
 std::uint32_t packed(const std::array<std::uint8_t, 4>& rgba)
@@ -181,27 +192,50 @@ std::optional<PointColouring> PointColouring::choose(const StoreDescription& des
   return colouring;
 }
 
-void PointColouring::placeBase(const ColourMap& map)
+void PointColouring::moveBase(const ColourMap& map)
 {
-  const double low = map.range[0];
-  const double width = map.range[1] - low;
-  if (kind != Kind::Table || heights || exact || !(width > 0.0) || !std::isfinite(width))
+  const double entries = static_cast<double>(map.entries.size());
+  const double width = map.range[1] - map.range[0];
+  const double most = mostFromBase / std::min(entries, mostEntries) * width;
+  if (farthestOf(map.range, base) > most)
+  {
+    const double step = std::exp2(std::floor(std::log2(most / 2.0)));
+    base = std::round(map.range[0] / step) * step;
+  }
+}
+
+void PointColouring::fitTo(const ColourMap& map)
+{
+  const auto [low, high] = map.range;
+  if (!usesTable() || !(low < high) || !std::isfinite(low) || !std::isfinite(high))
   {
     return;
   }
+  const bool fixed = kind == Kind::Elevation || heights || exact;
   if (map.logarithmic)
   {
     // Logarithms need the same share of small values as of large ones, as floats of values have.
-    base = base < -low ? 0.0 : base;
+    decades = kind == Kind::Table && (low < 1.0 / mostInFloats || high > mostInFloats);
+    base = decades || (!fixed && base < -low) ? 0.0 : base;
     return;
   }
-  const double entries = static_cast<double>(map.entries.size());
-  const double most = mostFromBase / std::min(entries, mostEntries) * width;
-  if (std::max(std::abs(low - base), std::abs(map.range[1] - base)) > most)
+  fixed ? void() : moveBase(map);
+  int exponent = 0;
+  std::frexp(std::min(farthestOf(map.range, base), largest), &exponent);
+  const bool narrow = exponent < -mostExponent && kind == Kind::Table;
+  if (exponent > mostExponent || narrow)
   {
-    const double step = std::exp2(std::floor(std::log2(most / 2.0)));
-    base = std::round(low / step) * step;
+    unit = std::ldexp(1.0, std::max(exponent - mostExponent, leastUnit));
   }
+}
+
+float PointColouring::floatOf(double value) const
+{
+  if (decades)
+  {
+    return static_cast<float>(value > 0.0 ? std::log10(value) : value - infinity);
+  }
+  return static_cast<float>(value / unit - base / unit);
 }
 
 ColumnSelection PointColouring::columns() const
@@ -225,7 +259,7 @@ void PointColouring::encode(const NodeColumns& node, const AttributeSchema& sche
     std::vector<float> numbers;
     heights->append(node, first, count, numbers);
     std::transform(numbers.begin(), numbers.end(), std::back_inserter(values),
-      [](float height) { return packed(height); });
+      [this](float height) { return packed(floatOf(height)); });
     return;
   }
   const auto place = std::find(node.selection.begin(), node.selection.end(), column);
@@ -284,7 +318,7 @@ void PointColouring::encodeNumbers(const std::byte* point, const Attribute& attr
 {
   for (std::uint32_t i = 0; i < count; ++i, point += attribute.bytes())
   {
-    values.push_back(packed(static_cast<float>(valueOf(attribute, point) - base)));
+    values.push_back(packed(floatOf(valueOf(attribute, point))));
   }
 }
 

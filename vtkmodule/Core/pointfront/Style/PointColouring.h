@@ -60,7 +60,7 @@ struct PointColouring
   {
     Flat, ///< the property's colour
     Direct, ///< the value is four bytes r, g, b, a
-    Table, ///< the value is a float: world value - base, to be looked up
+    Table, ///< the value is a float, to be looked up: floatOf() the world value
     Elevation ///< the point's z, computed in the shader, to be looked up
   };
   Kind kind = Kind::Flat;
@@ -68,6 +68,11 @@ struct PointColouring
   int component = 0; ///< -1: magnitude
   /// World value that float 0 stands for: floats keep large GPS times apart. Finite.
   double base = 0.0;
+  /// Table: world units from float 0 to 1; a power of 2, 1 unless the range of the colours is
+  /// beyond floats. Elevation: heights are in world units, and all are 0 beside a range that has a
+  /// unit.
+  double unit = 1.0;
+  bool decades = false; ///< Table: floats are logarithms to base 10 of world values
   bool exact = false; ///< Table: floats hold all values less the column's lowest one as they are
   bool absolute = false; ///< Table: of the component
   /// Direct: integer components use all bits of their type. Table: values are their upper bytes.
@@ -83,12 +88,14 @@ struct PointColouring
   static std::optional<PointColouring> choose(const StoreDescription& description,
     const ColourRequest& request, std::shared_ptr<const ClassHeights> heights = nullptr);
   static bool wantsHeights(const StoreDescription& description, const ColourRequest& request);
-  /// Moves the base of choose() to the range of `map` where floats so far from it are coarser than
-  /// the map's entries: one GPS time of 0, or one "no data" of -3.4e38, would give all other points
-  /// one colour. Values far from the range lose digits instead, and have the colours of its ends.
+  /// Makes floats of values in the range of `map` as fine as its entries.
+  /// Base       moves to the range where floats so far from it are coarser than entries: one GPS
+  ///            time of 0, or one "no data" of -3.4e38, would give all other points one colour.
+  ///            Values far from the range lose digits instead, and have the colours of its ends.
   /// Stays      where it is as far as floats allow, and on a grid of many widths of the range
   ///            beyond: another base means that all values are uploaded again.
-  void placeBase(const ColourMap& map);
+  /// Unit       for a range that floats do not hold, 1e200 to 1e201; decades for a logarithmic one.
+  void fitTo(const ColourMap& map);
 
   /// Whether a point has a value on the GPU.
   bool hasValues() const { return kind == Kind::Direct || kind == Kind::Table; }
@@ -102,6 +109,7 @@ struct PointColouring
   /// Table: the value of a point's bytes, which begin at `point`; one component, or the magnitude
   /// of all.
   double valueOf(const Attribute& attribute, const std::byte* point) const;
+  float floatOf(double value) const; ///< Table: the value on the GPU; base, unit and decades
   /// Values of points [first, first + count) of a node that covers this colouring. Appends.
   void encode(const NodeColumns& node, const AttributeSchema& schema, std::uint32_t first,
     std::uint32_t count, std::vector<std::uint32_t>& values) const;
@@ -109,12 +117,13 @@ struct PointColouring
   friend bool operator==(const PointColouring& a, const PointColouring& b)
   {
     return a.kind == b.kind && a.column == b.column && a.component == b.component &&
-      a.base == b.base && a.absolute == b.absolute && a.wide == b.wide &&
-      a.colourRange == b.colourRange && a.heights == b.heights;
+      a.base == b.base && a.unit == b.unit && a.decades == b.decades && a.absolute == b.absolute &&
+      a.wide == b.wide && a.colourRange == b.colourRange && a.heights == b.heights;
   }
   friend bool operator!=(const PointColouring& a, const PointColouring& b) { return !(a == b); }
 
 private:
+  void moveBase(const ColourMap& map);
   double inBytes(double value) const;
   static std::optional<PointColouring> derived(const StoreDescription& description,
     const ColourRequest& request, std::shared_ptr<const ClassHeights> heights);

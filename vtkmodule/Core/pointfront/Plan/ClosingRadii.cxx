@@ -16,6 +16,8 @@ namespace
 
 constexpr float mostOfDenser = 2.0f;
 constexpr double mostOfMean = 2.0;
+/// Closing radius of even points in a volume, where it is the least, by their spacing.
+constexpr float radiusOfSpacing = 0.75f;
 /// Share of a node's ground that another has to share to say how dense it is there. Cells of trees
 /// halve, so a quarter is a usual share; a little less counts, too: rounding must not decide.
 constexpr double leastShare = 0.24;
@@ -204,6 +206,13 @@ void matchLayers(std::vector<DrawnNode>& nodes)
   }
 }
 
+/// Most points of an unevenly dense leaf may lie close together. Its spacing is that of the sparse
+/// ones (SparsePoints.h), and of even points less than four thirds of the closing radius.
+float sparsestOfLeaf(const PlanItem& item)
+{
+  return item.node->leaf && item.closingRadius > 0.0f ? radiusOfSpacing * item.spacing : 0.0f;
+}
+
 } // namespace
 
 void matchNeighbours(std::vector<DrawBatch>& batches, const std::vector<NodeElsewhere>& elsewhere)
@@ -222,7 +231,7 @@ void matchNeighbours(std::vector<DrawBatch>& batches, const std::vector<NodeElse
     {
       const auto drawn = std::lower_bound(nodes.begin(), nodes.end(), item.node->node, before);
       item.closingRadius = drawn->closingRadius;
-      item.sparsestRadius = drawn->sparsestRadius;
+      item.sparsestRadius = std::max(drawn->sparsestRadius, sparsestOfLeaf(item));
       item.growingSpacingPx = drawn->growingSpacingPx;
       item.refined = drawn->refined;
       item.unfinished = drawn->unfinished;

@@ -4,11 +4,13 @@
 #include "pointfront/Trees/NodeEmitter.h"
 #include "pointfront/Trees/NodeSplat.h"
 #include "pointfront/Trees/Sampler.h"
+#include "pointfront/Trees/SparsePoints.h"
 #include "pointfront/Trees/TreeBuilder.h"
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <numeric>
 #include <utility>
@@ -56,6 +58,18 @@ protected:
     node->row.splatRadius = splat_.measure(positions, held);
     return node;
   }
+  /// Raises the spacing of an unevenly dense leaf to what its sparse points need, and at most to
+  /// `most` world units. `held`: its own points, in Morton order.
+  void seeSparse(BuiltNode& leaf, const RecordSpan& positions,
+    const std::vector<std::uint32_t>& held, float most) const
+  {
+    const double sparse = space().stepLength() * sparseSpacing(positions, held);
+    const double bounded = std::min(double(most), sparse);
+    if (bounded >= unevenFrom * leaf.row.spacing)
+    {
+      leaf.row.spacing = static_cast<float>(bounded);
+    }
+  }
   /// `points` in Morton order; the children of `node` are finished.
   void emit(BuiltNode& node, const RecordSpan& records, const std::vector<std::uint32_t>& points)
   {
@@ -87,9 +101,18 @@ protected:
     }
     std::vector<std::uint32_t> all(subtree.records.size() / recordBytes);
     std::iota(all.begin(), all.end(), 0u);
-    emit(*subtree.root, { subtree.records.data(), recordBytes }, all);
+    const RecordSpan records{ subtree.records.data(), recordBytes };
+    if (subtree.root->children.empty())
+    {
+      seeSparse(*subtree.root, records, all, std::numeric_limits<float>::max());
+    }
+    emit(*subtree.root, records, all);
     return std::move(subtree.root);
   }
+
+  /// Leaves whose sparse points need less than that many times their spacing are as even as real
+  /// surveys are. More points of those would be drawn for no gap that anybody sees.
+  static constexpr double unevenFrom = 2.0;
 
   std::size_t recordBytes_;
   NodeSplat splat_;

@@ -118,6 +118,12 @@ SubtreeBuilder::Branch SubtreeBuilder::joinBranches(
     space().stepLength());
   for (Branch& child : children)
   {
+    if (child.node->children.empty())
+    {
+      // Whatever a leaf holds has a point of the node above no farther than that node's spacing:
+      // where that is twice the threshold or less, nothing of the leaf is needed.
+      seeSparse(*child.node, points.positions, child.held, 0.5f * joined.node->row.spacing);
+    }
     emit(*child.node, points.records, child.held);
     joined.node->children.push_back(std::move(child.node));
   }

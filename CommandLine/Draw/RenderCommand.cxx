@@ -135,7 +135,9 @@ Result<void> RenderCommand::judge(const FrameRecord& last) const
   add(last.limitedByPoints, "--point-budget");
   if (frames_ == 0 && !raise.empty())
   {
-    warn(name(), "the picture is coarser than --error asks; raise " + raise);
+    const std::string lacks =
+      last.leftOut.empty() ? "" : ", and lacks " + leftOutText(last.leftOut);
+    warn(name(), "the picture is coarser than --error asks" + lacks + "; raise " + raise);
   }
   if (frames_ == 0 && limitedByDetail(last))
   {
@@ -256,6 +258,7 @@ std::string RenderCommand::statistics(const StoreScene& scene, const FrameRecord
   {
     object["limited_by"].push_back("detail");
   }
+  object["left_out"] = last.leftOut;
   object["failed_nodes"] = last.failedNodes;
   object["peak_rss_bytes"] = peakResidentBytes();
   object["resident_bytes"] = last.residentBytes;

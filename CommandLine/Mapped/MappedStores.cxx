@@ -291,6 +291,7 @@ FrameRecord MappedStores::record() const
     frame.frontMilliseconds += mapper->GetLastFrontTime();
     frame.points += mapper->GetLastPointsDrawn();
     countClasses(mapper->GetLastLayerPoints(), mapped->store->GetStore()->description(), frame);
+    noteLeftOut(mapper->GetLastLayersLeftOut(), mapped->store->GetStore()->description(), frame);
     frame.nodes += mapper->GetLastNodesDrawn();
     frame.frontLength += mapper->GetLastFrontLength();
     frame.moves += mapper->GetLastMoves();

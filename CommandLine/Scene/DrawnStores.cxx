@@ -136,6 +136,7 @@ FrameRecord DrawnStores::record() const
   {
     const FrontDelta& delta = store->last();
     const ResidencyStatistics residency = store->residency().statistics();
+    noteLeftOut(delta.layersLeftOut, store->cloud()->description(), frame);
     frame.nodes += static_cast<std::int64_t>(delta.draw.size());
     frame.frontLength += delta.frontLength;
     frame.moves += delta.moves;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ struct FrameRecord
   bool limitedByPoints = false; ///< --point-budget kept the error above --error
   bool limitedByGpu = false; ///< --gpu-memory did
   bool limitedByMemory = false; ///< --memory did
+  /// "class 2", or the path of a store without a tree for each class: of which --gpu-memory or
+  /// --point-budget let nothing be drawn, though it is in view.
+  std::set<std::string> leftOut;
   std::int64_t failedNodes = 0; ///< that could not be read
   std::int64_t gpuBytes = 0;
   std::uint64_t residentBytes = 0;
@@ -53,6 +57,12 @@ struct FrameRecord
 Error noPointShown();
 /// Nor is one for which --gpu-memory is too small: a node takes 4,096 points' room at least.
 Error noNodeOnGpu();
+
+/// Adds to FrameRecord::leftOut what FrontDelta::layersLeftOut says of a store.
+void noteLeftOut(
+  const std::vector<std::uint16_t>& layers, const StoreDescription& store, FrameRecord& frame);
+/// "class 2, class 9 and 3 others"; `names` is not empty.
+std::string leftOutText(const std::set<std::string>& names);
 
 /// Adds the points of a store's layers, where each layer is a class.
 void countClasses(

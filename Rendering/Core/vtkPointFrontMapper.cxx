@@ -137,6 +137,11 @@ const std::vector<std::uint64_t>& vtkPointFrontMapper::GetLastLayerPoints() cons
   return this->GetStatistics().layerPoints;
 }
 
+const std::vector<std::uint16_t>& vtkPointFrontMapper::GetLastLayersLeftOut() const
+{
+  return this->GetStatistics().layersLeftOut;
+}
+
 vtkIdType vtkPointFrontMapper::GetLastClassPointsDrawn(int objectClass)
 {
   vtkPointFrontStore* const store = this->GetStore();

@@ -284,8 +284,9 @@ public:
   /// Points drawn of a class (as in SetClassVisibility()), 0 if the store has no tree of it.
   vtkIdType GetLastClassPointsDrawn(int objectClass);
 #ifndef __VTK_WRAP__
-  /// By number of the store's layer; layers beyond the list have none.
+  /// By the store's layers, as far as any has points; and those in sight that budgets leave out.
   const std::vector<std::uint64_t>& GetLastLayerPoints() const;
+  const std::vector<std::uint16_t>& GetLastLayersLeftOut() const;
 #endif
   /// Points drawn beside these while the view moved: the last picture showed them, and the front
   /// of this frame lacks them.

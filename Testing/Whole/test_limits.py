@@ -240,7 +240,7 @@ class Page(unittest.TestCase):
         named = {name for row in rows for name in re.findall("`([^`]+)`", row[-2])}
         self.assertGreater(len(named), 5)
         lists = (root / "Testing/Whole/CMakeLists.txt").read_text()
-        whole = set(re.findall(r'(Whole\.\w+)"', lists)) | {
+        whole = set(re.findall(r'(Whole\.\w+)(?:"| READS)', lists)) | {
             f"Whole.{name}" for names in re.findall(r"^ *whole_tests\(([\w ]+)\)", lists, re.M)
             for name in names.split()}
         kinds = {kind for path in root.glob("*/**/Testing/**/*.cxx")

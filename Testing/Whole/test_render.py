@@ -260,7 +260,7 @@ class Refinement(SharedSceneTest):
         self.assertEqual(set(statistics), {
             "complete", "time_to_first_image_ms", "time_to_complete_ms", "points_drawn",
             "nodes_drawn", "error_px", "peak_rss_bytes", "resident_bytes", "gpu_bytes",
-            "bytes_read", "attributes_read", "limited_by", "failed_nodes", "backend",
+            "bytes_read", "attributes_read", "limited_by", "left_out", "failed_nodes", "backend",
             "picture_bytes", "classes", "expected",
             "requests", "bytes_fetched", "retries", "cache_hits", "cache_bytes"})
         self.assertEqual(statistics["backend"], BACKEND)

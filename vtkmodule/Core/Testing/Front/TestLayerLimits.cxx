@@ -253,43 +253,53 @@ TEST_P(LayerLimitsOf, SharesOfMoreThanAllAreCutDown)
 
 /// A node takes whole slots of GPU memory. Where there are fewer than layers, those layers that get
 /// one show as much as if all had one, and the largest get them.
-TEST(LayerLimits, WhereNotAllHaveASlotThoseThatDoAreAsFineAsWithSlotsForAll)
+TEST_P(LayerLimitsOf, WhereNotAllHaveASlotThoseThatDoAreAsFineAsWithSlotsForAll)
 {
   const DemandCurve nobody;
-  for (const double share : { 0.0, 0.2 })
+  for (const Refinement refinement : { Refinement::Add, Refinement::Replace })
   {
-    SCOPED_TRACE(share);
-    Layers all(Way::Front, 5);
-    std::vector<Node> nodes;
-    for (NodeIndex n = 0; n < all.tree->nodeCount(); ++n)
+    for (const double share : { 0.0, 0.2 })
     {
-      nodes.push_back(all.tree->node(n));
-    }
-    nodes.front().pointCount = 5;
-    const auto tree = std::make_shared<HierarchyTable>(nodes, all.tree->roots(), Refinement::Add);
-    const auto drawWith = [&](Layers& l, std::uint64_t slots)
-    {
-      l.tree = tree;
-      l.selection = selectionOf(Way::Front, tree);
-      l.limits.sharedSlots = { slots, &nobody };
-      for (LayerLimits& layer : l.limits.layers)
+      SCOPED_TRACE(testing::Message() << share << ' ' << int(refinement));
+      Layers all(GetParam(), 5, refinement);
+      std::vector<Node> nodes;
+      for (NodeIndex n = 0; n < all.tree->nodeCount(); ++n)
       {
-        layer.share = share;
+        nodes.push_back(all.tree->node(n));
       }
-      l.draw();
-    };
-    drawWith(all, 5);
-    EXPECT_EQ(all.delta().slotsDrawn, 5u);
-    EXPECT_GT(all.drawn(1), 100u);
-    for (const std::uint64_t slots : { 1, 3 })
-    {
-      Layers few(Way::Front, 5);
-      drawWith(few, slots);
-      EXPECT_EQ(few.delta().slotsDrawn, slots);
-      EXPECT_EQ(few.delta().pointsDrawn, slots * all.drawn(1));
-      EXPECT_EQ(few.drawn(0), 0u) << "it has five points";
-      EXPECT_TRUE(few.delta().limitedByGpu);
-      EXPECT_FALSE(few.delta().limitedByBudget);
+      Node& small = nodes.front(); // a leaf of five points
+      small.pointsBelow = small.pointCount = 5;
+      small.childCount = 0;
+      small.firstChild = noNode;
+      const auto tree = std::make_shared<HierarchyTable>(nodes, all.tree->roots(), refinement);
+      const auto drawWith = [&](Layers& l, std::uint64_t slots)
+      {
+        l.tree = tree;
+        l.selection = selectionOf(GetParam(), tree);
+        l.limits.sharedSlots = { slots, &nobody };
+        for (LayerLimits& layer : l.limits.layers)
+        {
+          layer.share = share;
+        }
+        l.draw();
+      };
+      drawWith(all, 5);
+      EXPECT_EQ(all.delta().slotsDrawn, 5u);
+      EXPECT_GT(all.drawn(1), 100u);
+      EXPECT_TRUE(all.delta().layersLeftOut.empty());
+      for (const std::uint64_t slots : { 1, 3 })
+      {
+        Layers few(GetParam(), 5, refinement);
+        drawWith(few, slots);
+        EXPECT_EQ(few.delta().slotsDrawn, slots);
+        EXPECT_EQ(few.delta().pointsDrawn, slots * all.drawn(1));
+        EXPECT_EQ(few.drawn(0), 0u) << "it has least";
+        EXPECT_TRUE(few.delta().limitedByGpu);
+        EXPECT_FALSE(few.delta().limitedByBudget);
+        EXPECT_GT(few.delta().errorPx, few.limits.targetErrorPx);
+        EXPECT_EQ(few.delta().layersLeftOut.size(), 5 - slots);
+        EXPECT_EQ(few.delta().layersLeftOut.front(), 0u);
+      }
     }
   }
 }

@@ -22,6 +22,12 @@ double DetailLevels::errorAt(double level) const
   return targetErrorPx_ * std::exp2(0.5 * (wanted_ - level));
 }
 
+/// A point of the whole store: one of each layer, or its root where that comes whole.
+DetailWalk::Shown DetailLevels::leastShown() const
+{
+  return { 1.0 / all_, 1.0 / all_ };
+}
+
 DetailWalk::Shown DetailLevels::shownAt(double level) const
 {
   return { std::exp2(overview_) / all_, std::exp2(level) / all_ };
@@ -58,10 +64,12 @@ void DetailLevels::chooseOwn(DetailWalk& walk, const FrontLimits& limits)
     if (share > 0.0)
     {
       double highest = 0.0;
+      const std::uint64_t least =
+        slotsBeyond(limits, walk.demand(l, leastShown()), share, errorAt(0.0));
       const auto fits = [&](double level)
       {
         layer.demand = walk.demand(l, shownAt(level));
-        return fitsBudgets(limits, layer.demand, share, errorAt(level));
+        return !brokenBudget(limits, layer.demand, share, errorAt(level), least);
       };
       layer.own = highestFitting(fits, highest) ? highest : belowAnyLevel;
     }
@@ -80,13 +88,19 @@ bool DetailLevels::fitsAt(DetailWalk& walk, const FrontLimits& limits, double le
       sum += layer.own >= level ? layer.demand : walk.demand(l, shownAt(level));
     }
   }
-  const std::optional<FrontBudget> broken = brokenBudget(limits, sum, 1.0, errorAt(level));
+  const auto broken = brokenBudget(limits, sum, 1.0, errorAt(level), leastSlots_);
   boundBy_ = broken.value_or(boundBy_);
   return !broken;
 }
 
 void DetailLevels::chooseCommon(DetailWalk& walk, const FrontLimits& limits)
 {
+  Demand least;
+  for (std::size_t l = 0; l < layers_.size(); ++l)
+  {
+    least += walk.visible(l) ? walk.demand(l, leastShown()) : Demand();
+  }
+  leastSlots_ = slotsBeyond(limits, least, 1.0, errorAt(0.0));
   double common = 0.0;
   bool fitting = highestFitting([&](double level) { return fitsAt(walk, limits, level); }, common);
   while (!fitting && overview_ > 0.0)

@@ -45,6 +45,7 @@ private:
     Demand demand; ///< at its own level
   };
 
+  DetailWalk::Shown leastShown() const;
   DetailWalk::Shown shownAt(double level) const;
   template <typename FitsAt>
   bool highestFitting(FitsAt fitsAt, double& level) const;
@@ -61,6 +62,7 @@ private:
   double lowest_ = 0.0;
   double targetErrorPx_ = 1.0;
   FrontBudget boundBy_ = FrontBudget::Points;
+  std::uint64_t leastSlots_ = 0; ///< slotsBeyond() of all layers together
 };
 
 } // namespace pointfront

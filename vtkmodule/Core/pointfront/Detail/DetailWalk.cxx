@@ -78,42 +78,65 @@ std::optional<std::uint32_t> DetailWalk::drawableOf(NodeIndex node, const Node& 
   return drawablePoints(limitsOf(row.layer), node, row.pointCount);
 }
 
-Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
+Demand DetailWalk::demandOfRoot(std::size_t root, const Shown& shown)
 {
   residency_ = nullptr;
   delta_ = nullptr;
   sum_ = {};
+  enter(root, shown);
+  return sum_;
+}
+
+Demand DetailWalk::demand(std::size_t layer, const Shown& shown)
+{
+  Demand sum;
   for (std::size_t root = 0; root < rootRows_.size(); ++root)
   {
-    if (rootRows_[root].layer == layer)
-    {
-      enter(root, shown);
-    }
+    sum += rootRows_[root].layer == layer ? demandOfRoot(root, shown) : Demand();
   }
-  return sum_;
+  return sum;
+}
+
+/// As FrontPlan: where there is not a slot for each of them those come first that have most to
+/// show.
+void DetailWalk::listRoots(const std::vector<Shown>& shown)
+{
+  roots_.clear();
+  for (std::size_t root = 0; root < rootRows_.size(); ++root)
+  {
+    visible(rootRows_[root].layer) ? roots_.push_back(root) : void();
+  }
+  if (allowance_.slots() < roots_.size())
+  {
+    std::vector<std::uint64_t> drawn(rootRows_.size());
+    for (const std::size_t root : roots_)
+    {
+      drawn[root] = demandOfRoot(root, shown[rootRows_[root].layer]).drawn;
+    }
+    std::stable_sort(roots_.begin(), roots_.end(),
+      [&](std::size_t a, std::size_t b) { return drawn[a] > drawn[b]; });
+  }
 }
 
 void DetailWalk::plan(
   const ResidencySnapshot& residency, const std::vector<Shown>& shown, FrontDelta& delta)
 {
+  allowance_.begin(*limits_);
+  listRoots(shown);
   residency_ = &residency;
   delta_ = &delta;
-  allowance_ = DrawAllowance(*limits_);
   sum_ = {};
   rowsComing_ = false;
   needed_.clear();
   requests_.begin(residency);
   delta.draw.clear();
   delta.errorPx = 0.0;
-  for (std::size_t root = 0; root < rootRows_.size(); ++root)
+  for (const std::size_t root : roots_)
   {
-    const std::uint16_t layer = rootRows_[root].layer;
-    if (visible(layer))
-    {
-      enter(root, shown[layer]);
-    }
+    enter(root, shown[rootRows_[root].layer]);
   }
   order_.sort(delta.draw);
+  allowance_.listLeftOut(delta.layersLeftOut);
   requests_.finish(limits_->requestLimit, delta);
   delta.pointsDrawn = sum_.drawn;
   delta.slotsDrawn = sum_.slots;
@@ -188,15 +211,12 @@ void DetailWalk::visitAdd(const Visit& at, bool inSight, double distance, bool o
     state = require(at.index, row, overview ? overviewPriority : priorityOf(at, distance));
   }
   const bool here = at.drawable && state == ResidencySnapshot::State::Resident;
-  if (inSight && here)
-  {
-    draw(at, wantedPoints, distance);
-  }
+  const std::uint32_t drawn = inSight && here ? draw(at, wantedPoints, distance) : 0;
   const Quota left{ quota.overview - row.pointCount, quota.detail - row.pointCount };
   const bool deeper = left.most() >= 0.5 && !row.leaf();
   if (inSight && residency_)
   {
-    noteError(at, here ? wantedPoints : 0, distance, deeper && here);
+    noteError(at, drawn, distance, deeper && here && drawn == wantedPoints);
   }
   if (deeper)
   {
@@ -216,8 +236,7 @@ void DetailWalk::visitReplace(const Visit& at, bool inSight, double distance, bo
     refine && childrenReady(at, overview ? overviewPriority : priorityOf(at, distance));
   if (inSight && at.drawable && at.standIn && !ready)
   {
-    draw(at, at.points, distance);
-    noteError(at, at.points, distance, false);
+    noteError(at, draw(at, at.points, distance), distance, false);
   }
   if (refine)
   {
@@ -289,11 +308,12 @@ ResidencySnapshot::State DetailWalk::require(NodeIndex node, const Node& row, do
   return requests_.require({ node, priority, false, points, row.layer });
 }
 
-void DetailWalk::draw(const Visit& at, std::uint32_t count, double distance)
+/// As many of them as the budgets allow.
+std::uint32_t DetailWalk::draw(const Visit& at, std::uint32_t count, double distance)
 {
   if (residency_)
   {
-    count = allowance_.take(count);
+    count = allowance_.take(count, at.row.layer);
   }
   sum_.drawn += count;
   sum_.slots += gpuSlotsOf(count);
@@ -303,6 +323,7 @@ void DetailWalk::draw(const Visit& at, std::uint32_t count, double distance)
     delta_->draw.push_back({ at.index, count, static_cast<float>(projectedPx),
       static_cast<float>(distance), static_cast<float>(std::clamp(at.ratio, 0.0, 1.0)) });
   }
+  return count;
 }
 
 double DetailWalk::errorOf(const Visit& at, double distance) const

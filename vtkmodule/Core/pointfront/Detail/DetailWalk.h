@@ -58,6 +58,9 @@ public:
   std::uint32_t missing() const { return requests_.missing(); } ///< neither resident nor failed
   std::uint64_t held() const { return sum_.held; } ///< points of all nodes needed
   const NodeSlots& needed() const { return needed_; }
+  // The budget that cut points off, as FrontPlan's:
+  bool cutByPoints() const { return allowance_.cutByPoints(); }
+  bool cutBySlots() const { return allowance_.cutBySlots(); }
 
 private:
   struct Quota;
@@ -69,6 +72,8 @@ private:
     return limitsOfLayer(limits_->layers, layer);
   }
   std::optional<std::uint32_t> drawableOf(NodeIndex node, const Node& row) const;
+  Demand demandOfRoot(std::size_t root, const Shown& shown);
+  void listRoots(const std::vector<Shown>& shown);
   void enter(std::size_t root, const Shown& shown);
   void visit(const Visit& at);
   void visitAdd(const Visit& at, bool inSight, double distance, bool onPixel);
@@ -76,7 +81,7 @@ private:
   void descend(const Visit& at, const Quota& left, const Descent& descent);
   bool childrenReady(const Visit& at, double priority);
   ResidencySnapshot::State require(NodeIndex node, const Node& row, double priority);
-  void draw(const Visit& at, std::uint32_t count, double distance);
+  std::uint32_t draw(const Visit& at, std::uint32_t count, double distance);
   void noteError(const Visit& at, std::uint32_t shown, double distance, bool refined);
   double errorOf(const Visit& at, double distance) const;
   double priorityOf(const Visit& at, double distance) const;
@@ -84,6 +89,7 @@ private:
 
   const Hierarchy& hierarchy_;
   std::vector<Node> rootRows_;
+  std::vector<std::size_t> roots_; ///< those of layers that are shown, in the order of the plan
   std::size_t layerCount_ = 0;
   double points_ = 0.0;
   const View* view_ = nullptr;

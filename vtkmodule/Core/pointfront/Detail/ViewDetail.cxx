@@ -60,8 +60,8 @@ void ViewDetail::State::finish(const ResidencySnapshot& from, bool sameInput)
   residencySeen.finish(from, sameInput, walk.missing());
   const auto boundBy = [&](FrontBudget budget)
   { return levels.bound() && levels.boundBy() == budget; };
-  delta.limitedByBudget = boundBy(FrontBudget::Points);
-  delta.limitedByGpu = boundBy(FrontBudget::GpuMemory);
+  delta.limitedByBudget = walk.cutByPoints() || boundBy(FrontBudget::Points);
+  delta.limitedByGpu = walk.cutBySlots() || boundBy(FrontBudget::GpuMemory);
   delta.limitedByMemory = residencySeen.exhausted() || boundBy(FrontBudget::HostMemory);
   delta.complete = !delta.rowsComing && (walk.missing() == 0 || residencySeen.exhausted());
   atRest = !delta.rowsComing;

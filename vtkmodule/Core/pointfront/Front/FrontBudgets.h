@@ -67,15 +67,25 @@ inline bool fitsBudget(
     (shared.most == 0 || points <= part(shared.leftAt(px)));
 }
 
-/// The first budget that the demand breaks, if it breaks one.
-inline std::optional<FrontBudget> brokenBudget(
-  const FrontLimits& limits, const Demand& wanted, double share, double px)
+/// Where not even the least demand fits into the GPU's memory, the slots of it; 0 where it fits.
+inline std::uint64_t slotsBeyond(
+  const FrontLimits& limits, const Demand& least, double share, double px)
+{
+  return fitsBudget(least.slots, 0, limits.sharedSlots, share, px) ? 0 : least.slots;
+}
+
+/// The first budget that the demand breaks, if it breaks one. `leastSlots` are slotsBeyond(): a
+/// coarser selection would not free any, but leave those that can be had nearly empty, so they do
+/// not count. The plan then fills as many as there are.
+inline std::optional<FrontBudget> brokenBudget(const FrontLimits& limits, const Demand& wanted,
+  double share, double px, std::uint64_t leastSlots = 0)
 {
   if (!fitsBudget(wanted.drawn, limits.pointBudget, limits.sharedDrawn, share, px))
   {
     return FrontBudget::Points;
   }
-  if (!fitsBudget(wanted.slots, 0, limits.sharedSlots, share, px))
+  const std::uint64_t slots = wanted.slots <= leastSlots ? 0 : wanted.slots;
+  if (!fitsBudget(slots, 0, limits.sharedSlots, share, px))
   {
     return FrontBudget::GpuMemory;
   }
@@ -86,31 +96,24 @@ inline std::optional<FrontBudget> brokenBudget(
   return std::nullopt;
 }
 
-inline bool fitsBudgets(const FrontLimits& limits, const Demand& wanted, double share, double px)
-{
-  return !brokenBudget(limits, wanted, share, px);
-}
-
 /// How many points may be drawn when a list is made, at any threshold: the budget less what the
 /// other clouds have on screen at this moment.
 class DrawAllowance
 {
 public:
-  DrawAllowance() = default;
-  explicit DrawAllowance(const FrontLimits& limits)
+  void begin(const FrontLimits& limits)
   {
-    points_ = limits.pointBudget > 0 ? limits.pointBudget : points_;
+    points_ = limits.pointBudget > 0 ? limits.pointBudget : UINT64_MAX;
     if (limits.sharedDrawn.most > 0)
     {
       points_ = std::min(points_, limits.sharedDrawn.leftAt(0.0));
     }
-    if (limits.sharedSlots.most > 0)
-    {
-      slots_ = limits.sharedSlots.leftAt(0.0);
-    }
+    slots_ = limits.sharedSlots.most > 0 ? limits.sharedSlots.leftAt(0.0) : UINT64_MAX;
+    cutByPoints_ = cutBySlots_ = false;
+    std::fill(shown_.begin(), shown_.end(), Shown::Unwanted);
   }
-  /// Takes the points that a node draws, as many as the budget allows.
-  std::uint32_t take(std::uint32_t points)
+  /// Takes the points that a node of a layer draws, as many as the budget allows.
+  std::uint32_t take(std::uint32_t points, std::uint16_t layer)
   {
     const std::uint64_t inSlots = slots_ < UINT32_MAX ? slots_ * gpuSlotPoints : UINT64_MAX;
     const std::uint64_t most = std::min(points_, inSlots);
@@ -119,17 +122,37 @@ public:
     cutBySlots_ = cutBySlots_ || (taken < points && inSlots < points_);
     points_ -= taken;
     slots_ -= gpuSlotsOf(taken);
+    shown_.resize(std::max<std::size_t>(shown_.size(), layer + std::size_t(1)), Shown::Unwanted);
+    shown_[layer] = std::max(
+      shown_[layer], taken > 0 ? Shown::Some : (points > 0 ? Shown::Nothing : Shown::Unwanted));
     return taken;
   }
   std::uint64_t slots() const { return slots_; } ///< that are left
   bool cutByPoints() const { return cutByPoints_; }
   bool cutBySlots() const { return cutBySlots_; }
+  /// FrontDelta::layersLeftOut.
+  void listLeftOut(std::vector<std::uint16_t>& layers) const
+  {
+    layers.clear();
+    for (std::size_t layer = 0; layer < shown_.size(); ++layer)
+    {
+      shown_[layer] == Shown::Nothing ? layers.push_back(static_cast<std::uint16_t>(layer))
+                                      : void();
+    }
+  }
 
 private:
+  enum class Shown : std::uint8_t
+  {
+    Unwanted,
+    Nothing, ///< though points were wanted
+    Some
+  };
   std::uint64_t points_ = UINT64_MAX;
   std::uint64_t slots_ = UINT64_MAX;
   bool cutByPoints_ = false; ///< a node drew fewer points than it should, by the budget of points
   bool cutBySlots_ = false; ///< likewise, by the GPU's memory
+  std::vector<Shown> shown_; ///< by layer
 };
 
 } // namespace pointfront

@@ -133,6 +133,8 @@ struct FrontDelta
   bool limitedByBudget = false; ///< pointBudget
   bool limitedByGpu = false; ///< sharedSlots
   bool limitedByMemory = false; ///< heldPointBudget does, or the residency is exhausted
+  /// Layers in sight of which pointBudget or sharedSlots lets nothing be drawn, ascending.
+  std::vector<std::uint16_t> layersLeftOut;
   std::uint32_t failedNodes = 0; ///< nodes wanted in this view that could not be read
   /// Rows of a paged table that the front waits for: another update after
   /// Hierarchy::arrivals() has changed.

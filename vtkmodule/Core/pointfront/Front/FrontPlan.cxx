@@ -23,7 +23,7 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
   limits_ = &limits;
   delta_ = &delta;
   update_ = update;
-  allowance_ = DrawAllowance(limits);
+  allowance_.begin(limits);
   requests_.begin(residency);
   delta.draw.clear();
   delta.pointsDrawn = 0;
@@ -48,6 +48,7 @@ void FrontPlan::make(ActiveTree& tree, const FrontThreshold& threshold,
     }
   }
   order_.sort(delta.draw);
+  allowance_.listLeftOut(delta.layersLeftOut);
   requests_.finish(limits.requestLimit, delta);
 }
 
@@ -89,13 +90,10 @@ void FrontPlan::visitAdd(SlotIndex slot, Visit visit)
   {
     node.needed = update_;
   }
-  const bool drawn = visit.drawable && presence == Presence::Resident;
-  if (drawn && points > 0)
-  {
-    draw(node, points);
-  }
+  const bool here = visit.drawable && presence == Presence::Resident;
+  const std::uint32_t drawn = here ? draw(node, points) : 0;
   const bool descend = node.expanded() && node.errorPx > thresholdPx_;
-  noteError(node, drawn ? points : 0, descend && presence == Presence::Resident);
+  noteError(node, drawn, descend && drawn == points && presence == Presence::Resident);
   if (!descend)
   {
     return;
@@ -138,8 +136,7 @@ void FrontPlan::visitReplace(SlotIndex slot, Visit visit)
   const bool ready = refine && childrenReady(node, errorPx);
   if (visit.drawable && visit.itself && !ready)
   {
-    draw(node, node.pointCount);
-    noteError(node, node.pointCount, false);
+    noteError(node, draw(node, node.pointCount), false);
   }
   if (refine)
   {
@@ -172,9 +169,10 @@ void FrontPlan::prefetch(const ActiveNode& node, double priority)
   }
 }
 
-void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
+/// As many of them as the budgets allow.
+std::uint32_t FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
 {
-  points = allowance_.take(points);
+  points = allowance_.take(points, node.layer);
   if (points > 0)
   {
     const float projectedPx = node.errorPx / node.errorWeight;
@@ -182,6 +180,7 @@ void FrontPlan::draw(const ActiveNode& node, std::uint32_t points)
     delta_->pointsDrawn += points;
     delta_->slotsDrawn += gpuSlotsOf(points);
   }
+  return points;
 }
 
 void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refined)

@@ -44,7 +44,7 @@ private:
   void visitReplace(SlotIndex slot, Visit visit);
   bool childrenReady(const ActiveNode& node, double errorPx);
   Presence require(ActiveNode& node, double priority);
-  void draw(const ActiveNode& node, std::uint32_t points);
+  std::uint32_t draw(const ActiveNode& node, std::uint32_t points);
   void prefetch(const ActiveNode& node, double priority);
   void noteError(const ActiveNode& node, std::uint32_t drawn, bool refined);
 

@@ -153,24 +153,6 @@ Demand FrontThreshold::layerAt(
   return sum;
 }
 
-/// Where not even the demand at the highest threshold fits into the GPU's memory, the slots of it;
-/// 0 where it fits.
-std::uint64_t FrontThreshold::slotsBeyond(const Demand& least, double share, double px) const
-{
-  Demand slots;
-  slots.slots = least.slots;
-  return fitsBudgets(limits_, slots, share, px) ? 0 : least.slots;
-}
-
-/// Slots that are taken at every threshold do not count: a higher one would not free any, but leave
-/// those that can be had nearly empty. The plan then fills as many as there are.
-std::optional<FrontBudget> FrontThreshold::broken(
-  Demand wanted, std::uint64_t leastSlots, double share, double px) const
-{
-  wanted.slots = wanted.slots <= leastSlots ? 0 : wanted.slots;
-  return brokenBudget(limits_, wanted, share, px);
-}
-
 /// Where nodes come whole nothing is won above the largest error of a root: the plan then cuts
 /// what is too much. Where prefixes are drawn, a higher threshold draws fewer points.
 int FrontThreshold::highestOf(const ActiveTree& tree) const
@@ -266,22 +248,25 @@ void FrontThreshold::chooseFitting(const ActiveTree& tree, const FrontDemand& de
     {
       const int ownBefore = layer.own.rung;
       const std::uint64_t least =
-        slotsBeyond(layerAt(tree, demand, l, highest), layer.share, ladder_.at(highest));
+        slotsBeyond(limits_, layerAt(tree, demand, l, highest), layer.share, ladder_.at(highest));
       settle(layer.own, highest,
         [&](int rung)
-        { return !broken(layerAt(tree, demand, l, rung), least, layer.share, ladder_.at(rung)); });
+        {
+          const Demand wanted = layerAt(tree, demand, l, rung);
+          return !brokenBudget(limits_, wanted, layer.share, ladder_.at(rung), least);
+        });
       changed_ = changed_ || layer.own.rung != ownBefore;
     }
   }
   const int lowestBefore = common_.lowest;
-  leastSlots_ = slotsBeyond(totalAt(tree, demand, highest), 1.0, ladder_.at(highest));
+  leastSlots_ = slotsBeyond(limits_, totalAt(tree, demand, highest), 1.0, ladder_.at(highest));
   int demandRung = -1;
   settle(common_, highest,
     [&](int rung)
     {
       const Demand wanted = totalAt(tree, demand, rung);
       const double px = ladder_.at(rung);
-      const std::optional<FrontBudget> first = broken(wanted, leastSlots_, 1.0, px);
+      const auto first = brokenBudget(limits_, wanted, 1.0, px, leastSlots_);
       if (!first)
       {
         demand_ = wanted;
@@ -304,7 +289,7 @@ bool FrontThreshold::admit(const Demand& more)
 {
   Demand wanted = demand_;
   wanted += more;
-  if (const auto first = broken(wanted, leastSlots_, 1.0, commonPx_))
+  if (const auto first = brokenBudget(limits_, wanted, 1.0, commonPx_, leastSlots_))
   {
     boundBy_ = *first;
     return false;
@@ -315,7 +300,8 @@ bool FrontThreshold::admit(const Demand& more)
 
 bool FrontThreshold::unmoved() const
 {
-  return !limited() || (!common_.bound && !broken(demand_, leastSlots_, 1.0, commonPx_));
+  return !limited() ||
+    (!common_.bound && !brokenBudget(limits_, demand_, 1.0, commonPx_, leastSlots_));
 }
 
 bool FrontThreshold::falling() const

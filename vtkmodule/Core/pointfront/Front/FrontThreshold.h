@@ -8,7 +8,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 namespace pointfront
@@ -78,9 +77,6 @@ private:
   int highestOf(const ActiveTree& tree) const;
   Demand layerAt(
     const ActiveTree& tree, const FrontDemand& demand, std::size_t layer, int rung) const;
-  std::uint64_t slotsBeyond(const Demand& least, double share, double px) const;
-  std::optional<FrontBudget> broken(
-    Demand wanted, std::uint64_t leastSlots, double share, double px) const;
   void adoptLayers(const ActiveTree& tree);
   /// Rest of the shared limits, drawn, slots and held; 0 where there is none.
   using Left = std::array<std::uint64_t, 3>;

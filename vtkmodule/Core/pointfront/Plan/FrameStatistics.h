@@ -32,6 +32,7 @@ struct FrameStatistics
   bool limitedByPoints = false; ///< the budget of points, or a frame's time
   bool limitedByGpuMemory = false;
   bool limitedByMemory = false; ///< by the host's memory
+  std::vector<std::uint16_t> layersLeftOut; ///< FrontDelta::layersLeftOut, of any drawing
   std::uint32_t failedNodes = 0; ///< that could not be read
 
   /// Takes the results of an update of the front. Points and nodes are those that the front names;
@@ -48,6 +49,7 @@ struct FrameStatistics
     limitedByPoints = delta.limitedByBudget;
     limitedByGpuMemory = delta.limitedByGpu;
     limitedByMemory = delta.limitedByMemory;
+    layersLeftOut = delta.layersLeftOut;
     failedNodes = delta.failedNodes;
   }
 
@@ -76,6 +78,8 @@ struct FrameStatistics
     limitedByPoints = limitedByPoints || other.limitedByPoints;
     limitedByGpuMemory = limitedByGpuMemory || other.limitedByGpuMemory;
     limitedByMemory = limitedByMemory || other.limitedByMemory;
+    layersLeftOut.insert(
+      layersLeftOut.end(), other.layersLeftOut.begin(), other.layersLeftOut.end());
     failedNodes = std::max(failedNodes, other.failedNodes);
   }
 };

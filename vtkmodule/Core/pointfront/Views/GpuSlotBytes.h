@@ -22,12 +22,14 @@ struct GpuSlotBytes
   }
 
   /// The slots that the fronts of `clouds` clouds may fill together so that their pools stay within
-  /// `budget` > 0. A pool's last block may be partly empty, by an eighth of the pool and a slot. At
-  /// least one slot, so that even a small budget shows something.
+  /// `budget` > 0. A pool grows by an eighth, which may be partly empty, and by what is wanted
+  /// where it is small; the room that one of several pools leaves is none for others: a slot each.
+  /// At least one slot, so that even a small budget shows something.
   static constexpr std::uint64_t slotsWithin(std::int64_t budget, int streams, std::uint64_t clouds)
   {
-    const std::int64_t all = budget / of(streams) - static_cast<std::int64_t>(clouds);
-    return all > 1 ? static_cast<std::uint64_t>(all * 8 / 9) : 1;
+    const std::int64_t between = clouds > 1 ? static_cast<std::int64_t>(clouds) : 0;
+    const std::int64_t all = budget / of(streams) - between;
+    return all > 1 ? static_cast<std::uint64_t>(all - all / 9) : 1;
   }
 };
 

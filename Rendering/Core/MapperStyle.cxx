@@ -6,7 +6,9 @@
 #include "pointfront/Style/FilterPruning.h"
 
 #include <vtkActor.h>
+#include <vtkColorTransferFunction.h>
 #include <vtkDoubleArray.h>
+#include <vtkLookupTable.h>
 #include <vtkMath.h>
 #include <vtkNew.h>
 #include <vtkPolyDataMapper.h>
@@ -69,10 +71,13 @@ ColourMap sampleIntegers(vtkScalarsToColors& table, const std::array<std::int64_
   ColourMap map;
   map.indexed = true;
   map.range = { static_cast<double>(integers[0]), static_cast<double>(integers[1]) };
+  // VTK makes black of what has no logarithm. Values of other types are below the range then.
+  const bool decades = table.UsingLogScale() != 0 && table.GetRange()[0] > 0.0;
+  const double below = table.GetRange()[0] / 2.0;
   std::vector<double> values;
   for (std::int64_t value = integers[0] - 1; value <= integers[1] + 1; ++value)
   {
-    values.push_back(static_cast<double>(value));
+    values.push_back(decades && value <= 0 ? below : static_cast<double>(value));
   }
   return filled(std::move(map), table, std::move(values));
 }
@@ -112,15 +117,37 @@ ColourMap sampleRange(vtkScalarsToColors& table)
   return filled(std::move(map), table, std::move(values));
 }
 
-Rgba8 flatColour(vtkActor* actor)
+Rgba8 opaque(const double* colour)
 {
-  const double* colour = actor->GetProperty()->GetColor();
-  Rgba8 flat{ 0, 0, 0, 255 };
+  Rgba8 bytes{ 0, 0, 0, 255 };
   for (std::size_t c = 0; c < 3; ++c)
   {
-    flat[c] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0)));
+    bytes[c] = static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(colour[c], 0.0, 1.0)));
   }
-  return flat;
+  return bytes;
+}
+
+/// Tables of single values have none, and need none.
+bool lacksRange(vtkScalarsToColors& table)
+{
+  const double* const range = table.GetRange();
+  return !table.GetIndexedLookup() && !(std::isfinite(range[0]) && std::isfinite(range[1]));
+}
+
+/// A map of a range that is none: an infinite one, or NaN. All values have the colour of NaN.
+/// VTK's tables are not asked: they would end the program.
+ColourMap mapOfNothing(vtkScalarsToColors& table)
+{
+  auto* const entries = vtkLookupTable::SafeDownCast(&table);
+  auto* const function = vtkColorTransferFunction::SafeDownCast(&table);
+  constexpr double black[3] = { 0.0, 0.0, 0.0 };
+  ColourMap map;
+  map.missing =
+    opaque(entries ? entries->GetNanColor() : (function ? function->GetNanColor() : black));
+  map.below = map.above = map.missing;
+  map.usesBelow = map.usesAbove = true;
+  map.entries = { map.missing };
+  return map;
 }
 
 } // namespace
@@ -142,6 +169,10 @@ bool hasPlainPointsOnly(const FrameShading& shading, const std::vector<LayerStyl
 
 ColourMap sampleColours(vtkScalarsToColors& table, const PointColouring& colouring)
 {
+  if (lacksRange(table))
+  {
+    return mapOfNothing(table);
+  }
   return colouring.integers ? sampleIntegers(table, *colouring.integers) : sampleRange(table);
 }
 
@@ -279,6 +310,12 @@ std::shared_ptr<const ColourMap> MapperStyle::mapOf(
     warning_ = "an indexed lookup table needs an attribute of whole numbers with less than "
                "8192 different values; this one is drawn in the table's NaN colour";
   }
+  if (lacksRange(*table) && !rangeWarned_)
+  {
+    rangeWarned_ = true;
+    warning_ = "the range of the colour map is not finite; all points have its NaN colour. "
+               "Give it a range of numbers";
+  }
   if (!map_ || mapTable_ != table || mapTime_ != table->GetMTime() || mapColouring_ != colouring)
   {
     mapTable_ = table;
@@ -299,7 +336,7 @@ std::shared_ptr<const ResolvedStyle> MapperStyle::update(vtkPolyDataMapper& mapp
   {
     style.colouring.fitTo(*style.map);
   }
-  style.flat = flatColour(actor);
+  style.flat = opaque(actor->GetProperty()->GetColor());
   style.opacity = actor->GetForceOpaque() ? 1.0 : actor->GetProperty()->GetOpacity();
   style.size.mode = SplatSize::Mode::Pixels;
   style.size.value = pointSizePx > 0.0 ? pointSizePx : actor->GetProperty()->GetPointSize();

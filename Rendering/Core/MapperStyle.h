@@ -83,6 +83,7 @@ private:
   std::shared_ptr<const ClassHeights> heights_; ///< once they were asked for
   std::string unknownArray_; ///< that has been warned of
   bool indexedWarned_ = false;
+  bool rangeWarned_ = false;
   bool directWarned_ = false;
   bool vectorsWarned_ = false;
   std::string warning_;

@@ -16,7 +16,7 @@ namespace pointfront
 {
 
 /// A colour map as a texture; see glsl/ColourMapTexture.glsl. A new map remakes the texture and
-/// touches no point, unless PointColouring::fitTo() it makes other floats of their values.
+/// touches no point, unless PointColouring::fitTo() makes other floats of their values.
 /// Threads  that of the GL context, current in all functions but the constructor.
 class ColourMapTexture
 {

@@ -1,8 +1,8 @@
 """pvbatch: what colours a store opens with, and that each array on offer shows something.
 
 POINTFRONT_STORE has colours that are black everywhere, and an intensity; POINTFRONT_COLOURED has
-colours. Saves colours-opened.png, colours-elevation.png, colours-point_id.png, and with a legend
-colours-bar-elevation.png, colours-bar-point_id.png and colours-bar-rgb.png.
+colours. Saves colours-opened.png, colours-elevation.png, colours-amplitude.png,
+colours-point_id.png, and with a legend colours-bar-elevation.png, colours-bar-point_id.png and colours-bar-rgb.png.
 """
 
 import os
@@ -52,6 +52,12 @@ require(colours("colours-opened") > 20, "it opens in %d colours" % colours("colo
 # Height is on offer, and its range is the cloud's.
 simple.ColorBy(display, ("POINTS", "elevation"))
 require(colours("colours-elevation") > 20, "elevation: %d colours" % colours("colours-elevation"))
+
+# One infinite value ends neither the program nor the range of the others.
+simple.ColorBy(display, ("POINTS", "amplitude"))
+ends = list(display.LookupTable.RGBPoints)[::4]
+require(0 <= ends[0] and ends[-1] <= 398, "amplitude has the range %s" % ends)
+require(colours("colours-amplitude") > 20, "amplitude: %d colours" % colours("colours-amplitude"))
 
 # A legend is that of the colours in the picture.
 require(saved("colours-bar-elevation", True)[1], "elevation has no legend")

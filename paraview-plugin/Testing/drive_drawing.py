@@ -133,10 +133,11 @@ def colours(programs):
         ply.write("ply\nformat ascii 1.0\nelement vertex 40000\n"
                   "property double x\nproperty double y\nproperty double z\n"
                   "property uchar red\nproperty uchar green\nproperty uchar blue\n"
-                  "property ushort intensity\nend_header\n")
+                  "property ushort intensity\nproperty float amplitude\nend_header\n")
         for i in range(40000):
             x, y = i % 200, i // 200
-            ply.write("%d %d %g 0 0 0 %d\n" % (x, y, 0.002 * x * y, x + y))
+            amplitude = ("inf", "-inf", "nan")[i] if i < 3 else str(x + y)
+            ply.write("%d %d %g 0 0 0 %d %s\n" % (x, y, 0.002 * x * y, x + y, amplitude))
     os.environ["POINTFRONT_COLOURED"] = os.environ["POINTFRONT_STORE"]
     store = os.environ["POINTFRONT_STORE"] = os.path.abspath("black.pfront")
     tool("build", "black.ply", "-o", store, "--force")

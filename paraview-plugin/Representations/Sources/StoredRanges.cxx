@@ -16,7 +16,9 @@
 #include "vtkUnsignedShortArray.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace pointfront
 {
@@ -33,24 +35,29 @@ class RangedArray : public Array
 public:
   static RangedArray* New() { VTK_STANDARD_NEW_BODY(RangedArray); }
 
-  void tell(const Ranges& ranges) { ranges_ = ranges; }
+  /// `finite`: without infinite values, as ParaView's colour maps want them.
+  void tell(Ranges ranges, Ranges finite)
+  {
+    ranges_ = std::move(ranges);
+    finite_ = std::move(finite);
+  }
 
 protected:
-  bool ComputeScalarRange(double* ranges) override { return give(ranges); }
+  bool ComputeScalarRange(double* ranges) override { return give(ranges_, ranges); }
   bool ComputeScalarRange(double* ranges, const unsigned char*, unsigned char) override
   {
-    return give(ranges);
+    return give(ranges_, ranges);
   }
-  bool ComputeFiniteScalarRange(double* ranges) override { return give(ranges); }
+  bool ComputeFiniteScalarRange(double* ranges) override { return give(finite_, ranges); }
   bool ComputeFiniteScalarRange(double* ranges, const unsigned char*, unsigned char) override
   {
-    return give(ranges);
+    return give(finite_, ranges);
   }
 
 private:
-  bool give(double* ranges) const
+  static bool give(const Ranges& told, double* ranges)
   {
-    for (const std::array<double, 2>& range : ranges_)
+    for (const std::array<double, 2>& range : told)
     {
       ranges = std::copy(range.begin(), range.end(), ranges);
     }
@@ -58,6 +65,7 @@ private:
   }
 
   Ranges ranges_;
+  Ranges finite_;
 };
 
 /// The told ranges, each as wide as to hold what the array has.
@@ -83,6 +91,22 @@ Ranges widened(vtkDataArray* array, const Ranges& told)
   return ranges;
 }
 
+/// Ends that are not finite are those of the finite values of the array, which may be some of the
+/// store's.
+Ranges finiteOnes(vtkDataArray* array, Ranges ranges)
+{
+  for (std::size_t c = 0; c < ranges.size(); ++c)
+  {
+    std::array<double, 2> own{ { 1.0, 0.0 } };
+    array->GetFiniteRange(own.data(), static_cast<int>(c));
+    for (std::size_t end = 0; end < 2; ++end)
+    {
+      ranges[c][end] = std::isfinite(ranges[c][end]) ? ranges[c][end] : own[end];
+    }
+  }
+  return ranges;
+}
+
 /// Whether `array` is an Array; `ranged` is one with its values then.
 template <class Array>
 bool madeOf(vtkDataArray* array, const Ranges& ranges, vtkSmartPointer<vtkDataArray>& ranged)
@@ -94,7 +118,8 @@ bool madeOf(vtkDataArray* array, const Ranges& ranges, vtkSmartPointer<vtkDataAr
   }
   const auto made = vtkSmartPointer<RangedArray<Array>>::New();
   made->ShallowCopy(typed);
-  made->tell(widened(array, ranges));
+  const Ranges told = widened(array, ranges);
+  made->tell(told, finiteOnes(array, told));
   ranged = made;
   return true;
 }

@@ -1,10 +1,13 @@
 #include "Scene.h"
 
+#include "MapperStyle.h"
+
 #include "pointfront/Style/StyleSheet.h"
 
 #include <vtkLookupTable.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <set>
@@ -203,6 +206,111 @@ TEST(ColourRanges, ARangeThatIsDraggedUploadsPointsNowAndThen)
   }
   EXPECT_LE(gl->GetUploadedBytes() - first, 400 * 4);
   scene.expectColoursOfVtk("dragged");
+}
+
+/// 400 points of the classes 0 to `last`.
+std::string classesUpTo(int last)
+{
+  return storeOf("classes", 400,
+    [=](std::size_t i)
+    {
+      Sample sample;
+      sample.position = { static_cast<int>(i % 20) * 100 - 950,
+        static_cast<int>(i / 20) * 100 - 950, 0 };
+      sample.classification = static_cast<std::uint8_t>(i % static_cast<std::size_t>(last + 1));
+      return sample;
+    });
+}
+
+/// Time steps, and any other store: their classes are not those that the table was sampled for.
+TEST(ColourRanges, TheNextStoreHasTheColoursOfItsOwnIntegers)
+{
+  vtkNew<vtkLookupTable> table;
+  table->SetNanColor(1.0, 1.0, 0.0, 1.0);
+  table->SetRange(0.0, 8.0);
+  table->Build();
+  const auto colour = [&](Scene& scene)
+  {
+    scene.actor->GetProperty()->SetPointSize(3);
+    scene.mapper->SetScalarModeToUsePointFieldData();
+    scene.mapper->SelectColorArray("classification");
+    scene.mapper->SetLookupTable(table);
+    scene.mapper->UseLookupTableScalarRangeOn();
+  };
+  for (const auto& [first, next] : { std::pair(2, 8), std::pair(8, 2) })
+  {
+    Scene fresh(classesUpTo(next));
+    colour(fresh);
+    for (const bool software : { false, true })
+    {
+      Scene scene(classesUpTo(first));
+      colour(scene);
+      for (Scene* one : { &scene, &fresh })
+      {
+        software ? one->mapper->SetBackendToSoftware() : one->mapper->SetBackendToOpenGL();
+      }
+      scene.draw();
+      scene.mapper->SetInputConnection(fresh.reader->GetOutputPort());
+      EXPECT_EQ(differing(scene.draw(), fresh.draw()), 0) << next << (software ? " software" : "");
+    }
+  }
+}
+
+/// Whole numbers are sampled one by one. Those that have no logarithm are below any range, as
+/// numbers of other types are.
+TEST(ColourRanges, WholeNumbersWithoutALogarithmAreBelowTheRange)
+{
+  vtkNew<vtkLookupTable> table;
+  table->SetScaleToLog10();
+  table->SetRange(1.0, 100.0);
+  table->SetBelowRangeColor(1.0, 1.0, 1.0, 1.0);
+  table->Build();
+  PointColouring colouring;
+  colouring.kind = PointColouring::Kind::Table;
+  colouring.integers = { -3, 5 };
+  for (const bool below : { false, true })
+  {
+    table->SetUseBelowRangeColor(below);
+    table->Build();
+    const ColourMap map = sampleColours(*table, colouring);
+    double lowest[4];
+    table->GetTableValue(0, lowest);
+    const auto expected = static_cast<std::uint8_t>(std::lround(255.0 * (below ? 1.0 : lowest[1])));
+    for (std::size_t entry = 0; entry < 4; ++entry)
+    {
+      EXPECT_EQ(map.entries[entry][1], expected) << entry << below;
+    }
+    EXPECT_EQ(map.below[1], expected);
+  }
+}
+
+/// VTK's tables end the program if they are asked for colours then.
+TEST(ColourRanges, ARangeThatIsNoneShowsNothing)
+{
+  vtkNew<vtkLookupTable> table;
+  table->SetNanColor(1.0, 1.0, 0.0, 1.0);
+  PointColouring colouring;
+  colouring.kind = PointColouring::Kind::Table;
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const double nan = std::nan("");
+  for (const auto& [low, high] :
+    { std::pair(nan, nan), std::pair(-infinite, infinite), std::pair(0.0, infinite) })
+  {
+    for (const bool integers : { false, true })
+    {
+      colouring.integers.reset();
+      if (integers)
+      {
+        colouring.integers = { 0, 2 };
+      }
+      table->SetRange(low, high);
+      const ColourMap map = sampleColours(*table, colouring);
+      for (const Rgba8& colour : { map.entries.front(), map.below, map.above, map.missing })
+      {
+        EXPECT_EQ(colour, (Rgba8{ 255, 255, 0, 255 })) << low;
+      }
+    }
+  }
 }
 
 } // namespace

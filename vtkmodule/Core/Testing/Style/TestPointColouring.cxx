@@ -441,4 +441,16 @@ TEST(PointColouring, FewIntegersGetATableOfTheirOwn)
   EXPECT_FALSE(PointColouring::choose(description(), request)->integers);
 }
 
+/// A mapper that goes on to the next time step samples its table again if these differ.
+TEST(PointColouring, OtherIntegersAreAnotherColouring)
+{
+  ColourRequest request;
+  request.name = "classification";
+  StoreDescription next = description();
+  const PointColouring before = *PointColouring::choose(next, request);
+  EXPECT_EQ(before, *PointColouring::choose(description(), request));
+  next.ranges[1].components[0][1] = 12.0;
+  EXPECT_NE(before, *PointColouring::choose(next, request));
+}
+
 } // namespace

@@ -118,7 +118,8 @@ struct PointColouring
   {
     return a.kind == b.kind && a.column == b.column && a.component == b.component &&
       a.base == b.base && a.unit == b.unit && a.decades == b.decades && a.absolute == b.absolute &&
-      a.wide == b.wide && a.colourRange == b.colourRange && a.heights == b.heights;
+      a.wide == b.wide && a.colourRange == b.colourRange && a.heights == b.heights &&
+      a.exact == b.exact && a.integers == b.integers;
   }
   friend bool operator!=(const PointColouring& a, const PointColouring& b) { return !(a == b); }
 

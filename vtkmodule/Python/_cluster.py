@@ -292,6 +292,23 @@ class ClusterBuild:
         return report
 
 
+SIGNALS = (signal.SIGINT, signal.SIGTERM)
+
+
+@contextlib.contextmanager
+def signals_held_back():
+    """Signals that come meanwhile act behind it: Dask's start is not made to be interrupted."""
+    came = []
+    before = [signal.signal(number, lambda *_: came.append(True)) for number in SIGNALS]
+    try:
+        yield
+    finally:
+        for number, handler in zip(SIGNALS, before):
+            signal.signal(number, handler)
+        if came:
+            raise KeyboardInterrupt
+
+
 def _client(chosen):
     """A client of the scheduler, or of processes here, and what to close after it."""
     try:
@@ -370,13 +387,15 @@ def main(arguments):
     build, client, cluster, keeper = None, None, None, None
     try:
         output, options = _output(chosen.output, rest)
-        client, cluster = _client(chosen)
+        with contextlib.nullcontext() if chosen.scheduler else signals_held_back():
+            client, cluster = _client(chosen)
         tool = ["build", *rest, *_per_process(chosen, rest), *options, "--tiles"]
         build = ClusterBuild(client, tool, output, progress)
         if cluster is not None:
             keeper = _Keeper(build, cluster, len(cluster.workers))
             keeper.start()
         report = build.run()
+        _ignore_signals()  # all is done
         progress.close()
         _tell(report, chosen.json)
         return 0
@@ -397,9 +416,14 @@ def main(arguments):
         _end(build, client, cluster)
 
 
+def _ignore_signals():
+    for number in SIGNALS:
+        signal.signal(number, signal.SIG_IGN)
+
+
 def _end(build, client, cluster):
     """Ends what still runs, here and on the workers."""
-    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    _ignore_signals()
     place = build.place if build and not build.done else None
     with contextlib.suppress(Exception):
         if place:

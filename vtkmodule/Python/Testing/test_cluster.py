@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import random
+import shutil
 import signal
 import subprocess
 import sys
@@ -225,6 +226,30 @@ class Cluster(unittest.TestCase):
         self.assertEqual(running(self.land), [])
         self.build("--local", "2")
         self.assertEqual(tree(self.land), self.expected)
+
+    def test_a_signal_at_the_end_changes_nothing(self):
+        """The collection is there: what comes then does not make a failure of the build."""
+        for delay in (0.05, 0.2):
+            process = self.begun("--local", "1", tiles=1)
+            collection = self.land / (self.land.name + ".pfcollection")
+            while not collection.exists() and process.poll() is None:
+                time.sleep(0.01)
+            time.sleep(delay)
+            process.send_signal(signal.SIGTERM)
+            said = process.communicate(timeout=60)[1]
+            self.assertIn(process.returncode, (0, 130), said)
+            self.assertNotIn("Traceback", said)
+            self.assertEqual(tree(self.land), self.expected)
+            shutil.rmtree(self.land)
+
+    def test_signals_wait_while_dask_starts(self):
+        started = False
+        with self.assertRaises(KeyboardInterrupt):
+            with _cluster.signals_held_back():
+                os.kill(os.getpid(), signal.SIGTERM)
+                started = True
+        self.assertTrue(started)
+        self.assertEqual(signal.getsignal(signal.SIGTERM), signal.SIG_DFL)
 
     def test_a_step_that_fails_is_told_and_logged(self):
         self.tool("build", self.inputs, "-o", self.land, "--tiles", *OPTIONS)

@@ -129,19 +129,18 @@ Result<Address> Address::parse(std::string_view text)
 
 Result<Address> Address::redirected(const std::string& location) const
 {
-  if (location.find("://") != std::string::npos)
+  const bool whole = location.find("://") != std::string::npos;
+  const bool fromHost = location.compare(0, 2, "//") == 0;
+  const bool fromRoot = location.compare(0, 1, "/") == 0;
+  Result<Address> next = parse(whole ? location
+      : fromHost                     ? scheme + ":" + location
+      : fromRoot                     ? origin() + location
+                                     : origin() + path.substr(0, path.rfind('/') + 1) + location);
+  if (next)
   {
-    return parse(location);
+    next->settings.clear(); // those are the user's alone
   }
-  if (location.compare(0, 2, "//") == 0)
-  {
-    return parse(scheme + ":" + location);
-  }
-  if (!location.empty() && location.front() == '/')
-  {
-    return parse(origin() + location);
-  }
-  return parse(origin() + path.substr(0, path.rfind('/') + 1) + location);
+  return next;
 }
 
 std::string Address::text() const

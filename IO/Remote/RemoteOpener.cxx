@@ -158,12 +158,17 @@ std::string RemoteOpener::passedOn(const std::string& from, const std::string& t
 {
   const Result<Address> list = Address::parse(addressOf(from));
   Result<Address> file = Address::parse(addressOf(to));
-  if (!list || list->settings.empty() || !file || !file->settings.empty())
+  if (!list || !file)
   {
     return to;
   }
+  const std::string named = file->textWithSettings();
   file->settings = list->settings;
-  return rememberAddress(*file);
+  if (file->userInfo.empty() && file->origin() == list->origin())
+  {
+    file->userInfo = list->userInfo;
+  }
+  return file->textWithSettings() == named ? to : rememberAddress(*file);
 }
 
 RemoteOpener::Opened RemoteOpener::openNow(

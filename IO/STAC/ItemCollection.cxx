@@ -1,6 +1,7 @@
 #include "ItemCollection.h"
 
 #include "pointfront/Base/LetterCase.h"
+#include "pointfront/Base/PercentCode.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Points/QuantisationGrid.h"
 
@@ -8,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <utility>
 
 namespace pointfront
@@ -215,32 +217,59 @@ bool hasNextPage(const Json& json)
       links->begin(), links->end(), [](const Json& link) { return textOf(link, "rel") == "next"; });
 }
 
-/// An address without "." and ".." among its folders.
-std::string withoutDots(const std::string& address)
+/// A reference with what may not stand in a URI percent-encoded, as browsers do it: blanks, letters
+/// beyond ASCII, a '%' that begins no code. The name of a host stays.
+std::string uriOf(const std::string& reference)
 {
-  const std::size_t query = std::min(address.find_first_of("?#"), address.size());
-  const std::size_t root = std::min(address.find('/', address.find("://") + 3), query);
-  std::vector<std::string> parts;
-  for (std::size_t begin = root; begin < query;)
+  constexpr std::string_view notInURIs = "\"<>\\^`{|}";
+  const std::size_t host = isAddress(reference) ? reference.find("://") + 3
+    : reference.compare(0, 2, "//") == 0        ? 2
+                                                : 0;
+  std::size_t at = host > 0 ? std::min(reference.find('/', host), reference.size()) : 0;
+  std::string made = reference.substr(0, at);
+  for (; at < reference.size(); ++at)
   {
-    const std::size_t end = std::min(address.find('/', begin + 1), query);
-    const std::string part = address.substr(begin + 1, end - begin - 1);
-    if (part == ".." && !parts.empty())
-    {
-      parts.pop_back();
-    }
-    else if (part != "." && part != "..")
-    {
-      parts.push_back(part);
-    }
-    begin = end;
+    const char letter = reference[at];
+    const bool fit = letter > 0x20 && letter < 0x7f &&
+      notInURIs.find(letter) == std::string_view::npos &&
+      (letter != '%' || isPercentCode(reference, at));
+    made += fit ? std::string(1, letter) : percentEncoded({ &letter, 1 }, "");
   }
-  std::string path;
-  for (const std::string& part : parts)
+  return made;
+}
+
+/// The address that a reference means in the list at an address. It has the query of the list,
+/// unless it has its own, and is read with the list's settings. Source  RFC 3986, section 5.2.
+Result<std::string> joined(const std::string& list, const std::string& reference)
+{
+  if (isAddress(reference) || reference.compare(0, 2, "//") == 0)
   {
-    path += '/' + part;
+    const std::string whole = isAddress(reference) ? reference : schemeOf(list) + ':' + reference;
+    return fileNamedBy(list, withoutDots(whole));
   }
-  return address.substr(0, root) + path + address.substr(query);
+  const std::size_t query = std::min(list.find_first_of("?#"), list.size());
+  const std::size_t host = list.find("://") + 3;
+  const std::size_t root = std::min(list.find('/', host), query);
+  const std::size_t folder = std::max(list.substr(0, query).rfind('/') + 1, root);
+  const bool fromRoot = reference.compare(0, 1, "/") == 0;
+  const std::string base =
+    list.substr(0, fromRoot ? root : folder) + (fromRoot || folder > root ? "" : "/");
+  const std::size_t end = std::min(reference.find_first_of("?#"), reference.size());
+  const std::string place = withoutDots(base + reference.substr(0, end));
+  return end < reference.size() && reference[end] == '?'
+    ? fileNamedBy(list, place + reference.substr(end))
+    : place + list.substr(query) + reference.substr(end);
+}
+
+/// Most lists write names of files as they are, and some as URIs.
+std::string onDisk(const std::string& list, const std::string& name)
+{
+  std::error_code failure;
+  const std::string written = beside(list, name);
+  const std::string decoded = beside(list, percentDecoded(name));
+  const bool other = !std::filesystem::exists(written, failure) &&
+    decoded.find('\0') == std::string::npos && std::filesystem::exists(decoded, failure);
+  return other ? decoded : written;
 }
 } // namespace
 
@@ -305,28 +334,27 @@ Result<std::string> resolvedHref(const std::string& path, const std::string& hre
   constexpr std::string_view file = "file://";
   constexpr std::string_view curl = "/vsicurl/"; // GDAL's and PDAL's way to say it
   std::string name = href.compare(0, curl.size(), curl) == 0 ? href.substr(curl.size()) : href;
-  const bool local = name.compare(0, file.size(), file) == 0;
-  name = local ? name.substr(file.size()) : name;
-  if (!isAddress(path) || isAddress(name))
+  if (Result<void> sound = refuseSettings(path, name); !sound)
   {
-    while (!isAddress(name) && name.compare(0, 2, "./") == 0)
-    {
-      name = name.substr(2);
-    }
-    return beside(path, isAddress(name) ? withoutDots(name) : name);
+    return sound.error();
   }
-  if (local)
+  if (isAddress(path))
   {
-    return makeError(Error::Kind::Unsupported,
-      path + ": names the file '" + name + "'; a list behind an address names addresses only");
+    return joined(path, uriOf(name));
   }
-  if (!name.empty() && name.front() == '/')
+  if (name.compare(0, file.size(), file) == 0)
   {
-    const std::size_t host = path.find("://") + 3;
-    return withoutDots(
-      path.substr(0, std::min(path.find_first_of("/?#", host), path.size())) + name);
+    name = name.substr(file.size());
   }
-  return withoutDots(beside(path, name));
+  if (isAddress(name))
+  {
+    return withoutDots(uriOf(name));
+  }
+  while (name.compare(0, 2, "./") == 0)
+  {
+    name = name.substr(2);
+  }
+  return onDisk(path, name);
 }
 
 } // namespace pointfront

@@ -40,8 +40,9 @@ struct ItemCollection
 };
 
 /// The path or address that an item's href means in the list at `path`, as a browser would take it.
-/// A list behind an address names addresses only. Errors  Unsupported: it names a file of this
-/// machine, and the list lies behind an address.
+/// In a list on a disk, a path that is not there as it is written is taken as a URI ("%20"). A list
+/// behind an address names addresses only. Errors  Unsupported: an address with settings
+/// (FarSettings); a file of this machine, and the list lies behind an address.
 Result<std::string> resolvedHref(const std::string& path, const std::string& href);
 
 } // namespace pointfront

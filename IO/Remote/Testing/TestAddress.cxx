@@ -71,9 +71,39 @@ TEST(Address, SettingsTravelWithTheName)
   EXPECT_EQ(addressOf(beside(form, "b.laz")), "https://host/a/b.laz#far:offline=1&timeout=5");
   EXPECT_EQ(addressOf(beside(form, "https://other/b.laz?sig=1")),
     "https://other/b.laz?sig=1#far:offline=1&timeout=5");
+  // A file sets nothing itself, whether the user has set something or not.
   EXPECT_EQ(addressOf(beside(form, "https://other/b.laz#far:offline=0")),
-    "https://other/b.laz#far:offline=0");
+    "https://other/b.laz#far:offline=1&timeout=5");
+  EXPECT_EQ(addressOf(beside(plain, "https://other/b.laz#far:cache=/tmp")), "https://other/b.laz");
+  const std::string city = "https://other/c.pfcollection";
+  EXPECT_EQ(beside(form, city + "#epoch=1"), beside(form, city) + "#epoch=1");
   EXPECT_EQ(beside(plain, "https://other/b.laz"), "https://other/b.laz");
+}
+
+TEST(Address, ARedirectionSetsNothing)
+{
+  const Address from = Address::parse("https://host/a/b#far:offline=1").value();
+  for (const char* to : { "https://other/c#far:cache=/tmp", "//other/c#far:cache=/tmp",
+         "/c#far:cache=/tmp", "c#far:cache=/tmp" })
+  {
+    const Result<Address> next = from.redirected(to);
+    ASSERT_TRUE(next) << to;
+    EXPECT_EQ(next->settings, "") << to;
+    EXPECT_EQ(next->path.back(), 'c') << to;
+  }
+}
+
+/// Only what lies on the same server.
+TEST(Address, AWholeAddressOfTheSameServerHasTheUserOfItsList)
+{
+  addRemoteOpeners();
+  const std::string list = remembered("https://me:pass@host/a/list.vpc");
+  EXPECT_EQ(addressOf(beside(list, "https://host/b?v=1")), "https://me:pass@host/b?v=1");
+  EXPECT_EQ(addressOf(beside(list, "https://you:x@host/b")), "https://you:x@host/b");
+  for (const char* other : { "https://host:8443/b", "http://host/b", "https://other/b" })
+  {
+    EXPECT_EQ(addressOf(beside(list, other)), other);
+  }
 }
 
 /// An epoch is a part of a collection's name; it was lost, and all tiles were taken.

@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <fstream>
 #include <string>
+#include <unistd.h>
 
 namespace pointfront
 {
@@ -129,9 +132,55 @@ TEST(ItemCollection, NamesAreThoseOfABrowser)
   EXPECT_EQ(of("https://host/a/all.vpc", "/c/b.laz"), "https://host/c/b.laz");
   EXPECT_EQ(of("https://host", "/b.laz"), "https://host/b.laz");
   EXPECT_EQ(of("https://host/a/all.vpc", "s3://bucket/b.laz"), "s3://bucket/b.laz");
+  // As URIs, and not as paths.
+  EXPECT_EQ(of("https://host/a/all.vpc?t=1", "b%20c.laz"), "https://host/a/b%20c.laz?t=1");
+  EXPECT_EQ(of("https://host/a/all.vpc?t=1", "/b.laz"), "https://host/b.laz?t=1");
+  EXPECT_EQ(of("https://host/a/all.vpc?t=1", "b.laz?u=2"), "https://host/a/b.laz?u=2");
+  EXPECT_EQ(of("https://host/a/all.vpc?t=1", "b.laz#c"), "https://host/a/b.laz?t=1#c");
+  EXPECT_EQ(of("https://host/a/all.vpc", "b c\xc3\xbc.laz"), "https://host/a/b%20c%C3%BC.laz");
+  EXPECT_EQ(of("https://host/a/all.vpc", "100%.laz"), "https://host/a/100%25.laz");
+  EXPECT_EQ(of("https://host/a/all.vpc", "//other:1/b/../c.laz"), "https://other:1/c.laz");
+  EXPECT_EQ(of("http://host/all.vpc", "//other/c d"), "http://other/c%20d");
+  EXPECT_EQ(of("https://host", "b.laz"), "https://host/b.laz");
+  EXPECT_EQ(of("a/all.vpc", "https://host/b c.laz"), "https://host/b%20c.laz");
   const Result<std::string> stranger = resolvedHref("https://host/all.vpc", "file:///etc/passwd");
   ASSERT_FALSE(stranger);
   EXPECT_EQ(stranger.error().kind, Error::Kind::Unsupported);
+}
+
+/// Whoever serves or passes on a list does not choose how others read (FarSettings).
+TEST(ItemCollection, NamesHaveNoSettings)
+{
+  for (const char* href : { "b.laz#far:cache=/tmp", "/b.laz#far:cache=/tmp", "//g/b#far:offline=1",
+         "https://g/b.laz?sig=secret#far:cache=/tmp", "/vsicurl/https://g/b.laz#far:timeout=1",
+         "b#epoch=1#far:cache=/tmp", "file:///b#far:offline=1" })
+  {
+    const Result<std::string> far = resolvedHref("https://host/all.vpc", href);
+    ASSERT_FALSE(far) << href << ": " << *far;
+    EXPECT_EQ(far.error().kind, Error::Kind::Unsupported);
+    EXPECT_NE(far.error().what.find("settings"), std::string::npos) << far.error().what;
+    EXPECT_EQ(far.error().what.find("secret"), std::string::npos) << far.error().what;
+  }
+  EXPECT_FALSE(resolvedHref("all.vpc", "https://g/b.laz#far:cache=/tmp"));
+  EXPECT_FALSE(resolvedHref("all.vpc", "/vsicurl/https://g/b.laz#far:cache=/tmp"));
+  EXPECT_EQ(resolvedHref("a/all.vpc", "b.laz#far:cache=c").value(), "a/b.laz#far:cache=c");
+}
+
+TEST(ItemCollection, AFileIsFoundAsItIsWrittenOrAsItsURISays)
+{
+  const std::string folder = testing::TempDir() + "/hrefs" + std::to_string(::getpid());
+  std::filesystem::create_directories(folder);
+  const auto of = [&folder](const std::string& href)
+  { return resolvedHref(folder + "/all.vpc", href).value(); };
+  EXPECT_EQ(of("a%20b.laz"), folder + "/a%20b.laz"); // nothing is there
+  std::ofstream(folder + "/a b.laz") << "x";
+  EXPECT_EQ(of("./a%20b.laz"), folder + "/a b.laz");
+  EXPECT_EQ(of("a b.laz"), folder + "/a b.laz");
+  EXPECT_EQ(of("a%20b.laz%00c"), folder + "/a%20b.laz%00c");
+  EXPECT_EQ(of("file://" + folder + "/a%20b.laz"), folder + "/a b.laz");
+  std::ofstream(folder + "/a%20b.laz") << "x";
+  EXPECT_EQ(of("a%20b.laz"), folder + "/a%20b.laz");
+  std::filesystem::remove_all(folder);
 }
 } // namespace
 } // namespace pointfront

@@ -1,4 +1,6 @@
 #include "CollectionTest.h"
+#include "CountedBytes.h"
+#include "ForgedStore.h"
 
 #include "pointfront/Disk/OutputFile.h"
 
@@ -88,6 +90,46 @@ TEST_F(CollectionFaults, ARecordThatLiesIsRefused)
     flipped[place] ^= std::byte(1u << (i % 8));
     const auto read = CollectionRecord::decode(flipped.data(), flipped.size()); // does not crash
     EXPECT_TRUE(!read || read->version != 1 || !read->tiles.empty());
+  }
+}
+
+/// Whoever serves or passes on a collection does not choose what others read, and how.
+TEST_F(CollectionFaults, ATileThatItMayNotNameIsRefused)
+{
+  const auto counts = CountedBytes::add();
+  const auto kept = tile("t0.pfront", 1000, 16.0);
+  const auto refusal = [](const std::string& path)
+  {
+    const auto cloud = CollectionCloud::open(path);
+    EXPECT_TRUE(cloud || cloud.error().kind == Error::Kind::Unsupported) << cloud.error().what;
+    return cloud ? std::string() : cloud.error().what;
+  };
+  for (const std::string name :
+    { "counted://host/b.pfront#far:cache=/tmp", "b.pfront#far:offline=1", "/away/b.pfront" })
+  {
+    const std::string plain = std::string(name.size() - 7, 'x') + ".pfront";
+    const TileRequest other = tile(plain, 0, 0.0);
+    for (const bool removed : { false, true })
+    {
+      created({ kept, other });
+      if (removed)
+      {
+        sound(removeTiles(city(), { other.path }, {}));
+      }
+      ForgedStore forged(city());
+      std::vector<std::byte> bytes = forged.section(SectionKind::Description);
+      const auto at = std::search(bytes.begin(), bytes.end(), plain.begin(), plain.end(),
+        [](std::byte byte, char letter) { return byte == std::byte(letter); });
+      ASSERT_NE(at, bytes.end());
+      std::transform(name.begin(), name.end(), at, [](char letter) { return std::byte(letter); });
+      forged.replaceSection(SectionKind::Description, bytes);
+      forged.write(city());
+      const bool sets = name.find("#far:") != std::string::npos;
+      const std::string far = refusal(CountedBytes::addressOf(city()));
+      EXPECT_NE(far.find(sets ? "settings" : "names the file '/away"), std::string::npos) << far;
+      // On a disk it is the path of a file.
+      EXPECT_EQ(refusal(city()).find("settings") != std::string::npos, isAddress(name)) << name;
+    }
   }
 }
 

@@ -71,6 +71,21 @@ TEST(ByteSource, WhatLiesBesideAnAddress)
   EXPECT_EQ(beside("https://h/a/ept.json?sig=1/2", "d/0.laz"), "https://h/a/d/0.laz?sig=1/2");
   EXPECT_EQ(beside("https://h", "d"), "https://h/d");
   EXPECT_EQ(beside("a/list", "https://h/b"), "https://h/b");
+  // A path is no part of an address as it stands.
+  EXPECT_EQ(beside("a/list", "b c#1?%20"), "a/b c#1?%20");
+  EXPECT_EQ(beside("https://h/a/list?sig=1", "b c#1?%20\xc3\xbc+"),
+    "https://h/a/b%20c%231%3F%2520%C3%BC%2B?sig=1");
+  EXPECT_EQ(beside("https://h/a/list", "it's (b),c;d=e&f:g@h!$*~"),
+    "https://h/a/it's%20(b),c;d=e&f:g@h!$*~");
+  EXPECT_EQ(beside("https://h/a/list", "./../b/./c"), "https://h/b/c");
+  EXPECT_EQ(beside("https://h/a/list", "../../../c"), "https://h/c");
+  // The epoch of a collection comes last, as in its address.
+  EXPECT_EQ(beside("https://h/a/list?sig=1", "c d.pfcollection#epoch=2024"),
+    "https://h/a/c%20d.pfcollection?sig=1#epoch=2024");
+  // A preview names its store so: a name sets nothing, behind an epoch either.
+  EXPECT_EQ(beside("https://h/a/x", "b#far:cache=c"), "https://h/a/b%23far:cache=c");
+  EXPECT_EQ(
+    beside("https://h/a/x", "b#epoch=1#far:cache=c"), "https://h/a/b%23epoch=1%23far:cache=c");
 }
 
 /// A store behind an address is the store of the file: all nodes, and the same bytes.

@@ -19,7 +19,7 @@ public:
   /// the address.
   virtual std::string publicForm(const std::string& address) const { return address; }
   /// The name under which `to` is opened, an address that the file `from` names: it is read as
-  /// `from` is.
+  /// `from` is, whatever settings stand in it.
   virtual std::string passedOn(
     [[maybe_unused]] const std::string& from, const std::string& to) const
   {
@@ -67,10 +67,27 @@ std::string publicForm(const std::string& path);
 /// The last part of a path or an address, without what an address asks for ("?...").
 std::string fileNameOf(std::string_view path);
 
+/// An address without "." and ".." among its folders.
+std::string withoutDots(const std::string& address);
+
 /// The address or path of what lies beside `path`, or below its folder: "a/b/ept.json" and
-/// "ept-data/0-0-0-0.laz" give "a/b/ept-data/0-0-0-0.laz". An address keeps its query. `name` may
-/// be an address itself, or an absolute path: it is the answer then. An address that an address
-/// names is read with the same settings (FarSettings).
+/// "ept-data/0-0-0-0.laz" give "a/b/ept-data/0-0-0-0.laz". `name` may be an address itself, or an
+/// absolute path: it is the answer then. Beside an address, a path is percent-encoded, but for the
+/// epoch of a collection behind it, and what is found has the query and the settings (FarSettings)
+/// of that address. Names that a file has from strangers go through fileNamedBy().
 std::string beside(const std::string& path, const std::string& name);
+
+/// The path or address of a file that a list names by a path or an address (beside()): a line of a
+/// list of stores, a tile of a collection. Where the list lies behind an address, its names are the
+/// word of whoever serves it, and not of the user: they lead to no file of this machine, and choose
+/// nothing of how this machine reads (FarSettings).
+/// Errors  Unsupported: the list lies behind an address, and the name is that of a file of this
+///         machine, or has settings.
+Result<std::string> fileNamedBy(const std::string& list, const std::string& name);
+
+/// Nobody writes settings into files of a kind that programs make. Whoever passes on such a file
+/// could choose a cache on the machine of those who open it, wherever it lies.
+/// Errors  Unsupported: an address with settings, or any name with them behind an address.
+Result<void> refuseSettings(const std::string& list, const std::string& name);
 
 } // namespace pointfront

@@ -2,56 +2,23 @@
 
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Base/NumberText.h"
+#include "pointfront/Base/PercentCode.h"
 #include "pointfront/Disk/ByteOpeners.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdio>
-#include <cstdlib>
 
 namespace pointfront
 {
 namespace
 {
 constexpr std::string_view begin = "#far:";
+constexpr std::string_view keptInValues = "/._-~";
 constexpr double longestSeconds = 1e6;
 
 Error wrong(const std::string& what)
 {
   return makeError(Error::Kind::BadArgument, what);
-}
-
-bool isPlain(char letter)
-{
-  return isAsciiLetterOrDigit(letter) ||
-    std::string_view("/._-~").find(letter) != std::string_view::npos;
-}
-
-std::string encoded(const std::string& text)
-{
-  std::string made;
-  for (const char letter : text)
-  {
-    char hex[4];
-    std::snprintf(hex, sizeof hex, "%%%02X", static_cast<unsigned char>(letter));
-    made += isPlain(letter) ? std::string(1, letter) : hex;
-  }
-  return made;
-}
-
-std::string decoded(std::string_view text)
-{
-  std::string made;
-  for (std::size_t at = 0; at < text.size(); ++at)
-  {
-    const std::string hex(text.substr(at + 1, 2));
-    const bool code = text[at] == '%' && hex.size() == 2 &&
-      std::all_of(hex.begin(), hex.end(), [](unsigned char c) { return std::isxdigit(c) != 0; });
-    made += code ? static_cast<char>(std::strtoul(hex.c_str(), nullptr, 16)) : text[at];
-    at += code ? 2 : 0;
-  }
-  return made;
 }
 
 /// Takes "name=value" into the settings.
@@ -132,7 +99,7 @@ Result<std::string> FarSettings::named(const std::string& address) const
   }
   if (cacheFolder)
   {
-    add("cache", encoded(*cacheFolder));
+    add("cache", percentEncoded(*cacheFolder, keptInValues));
   }
   if (cacheBytes)
   {
@@ -155,7 +122,8 @@ Result<FarSettings> FarSettings::parse(std::string_view text)
     const std::string_view one = text.substr(0, text.find('&'));
     text.remove_prefix(std::min(one.size() + 1, text.size()));
     const std::size_t equals = std::min(one.find('='), one.size());
-    const std::string value = equals < one.size() ? decoded(one.substr(equals + 1)) : std::string();
+    const std::string value =
+      equals < one.size() ? percentDecoded(one.substr(equals + 1)) : std::string();
     if (Result<void> taken = take(std::string(one.substr(0, equals)), value, settings); !taken)
     {
       return taken.error();
@@ -180,6 +148,11 @@ Result<std::uint64_t> cacheBytesOf(const std::string& text)
     return wrong("'" + text + "' is no size of a cache: 512M, 4G; 0 for none");
   }
   return static_cast<std::uint64_t>(all);
+}
+
+bool hasFarSettings(std::string_view name)
+{
+  return name.find(begin) != std::string_view::npos;
 }
 
 std::string_view farSettingsTextOf(std::string_view address)

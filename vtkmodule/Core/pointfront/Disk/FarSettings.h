@@ -14,7 +14,8 @@ namespace pointfront
 /// environment. The settings travel as a part of the name under which the cloud is opened,
 /// "https://host/a.pfront#far:offline=1&timeout=5": whatever opens a cloud by its name opens it
 /// with them, and the same address with other settings is another cloud. Files that the cloud names
-/// (nodes of an EPT, tiles of a list) are read with its settings. Secrets  a folder's name is none;
+/// (nodes of an EPT, tiles of a list) are read with its settings, and may not choose others
+/// (fileNamedBy()). Secrets  a folder's name is none;
 /// the public form of such an address has a mark all the same.
 struct FarSettings
 {
@@ -40,6 +41,8 @@ struct FarSettings
 /// Errors  BadArgument: a text that is none.
 Result<std::uint64_t> cacheBytesOf(const std::string& text);
 
+/// Whether a name has "#far:" in it.
+bool hasFarSettings(std::string_view name);
 /// The text behind "#far:" in the name of a cloud, up to the next '#'; empty: it has none.
 std::string_view farSettingsTextOf(std::string_view address);
 /// The name without it.

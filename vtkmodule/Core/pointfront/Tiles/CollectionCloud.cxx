@@ -69,6 +69,10 @@ Result<CollectionRecord> CollectionCloud::recordOf(const PointStore& heads)
         "' is damaged: its heads and its list of tiles have other attributes; copy the "
         "file again or create it again");
   }
+  if (Result<void> sound = record->checkAddresses(path); !sound)
+  {
+    return sound.error();
+  }
   return std::move(*record);
 }
 

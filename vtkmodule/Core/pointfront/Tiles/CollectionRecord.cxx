@@ -1,6 +1,7 @@
 #include "pointfront/Tiles/CollectionRecord.h"
 
 #include "pointfront/Codec/ByteStream.h"
+#include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Store/DescriptionSection.h"
 
 #include <algorithm>
@@ -276,6 +277,29 @@ std::vector<std::string> CollectionRecord::epochs() const
     all.insert(tile.is.epoch);
   }
   return { all.begin(), all.end() };
+}
+
+Result<void> CollectionRecord::checkAddresses(const std::string& path) const
+{
+  const auto check = [&path](const TileName& tile) -> Result<void>
+  {
+    Result<void> sound = refuseSettings(path, tile.address);
+    const Result<std::string> file = sound ? fileNamedBy(path, tile.address) : sound.error();
+    return file ? Result<void>() : file.error();
+  };
+  Result<void> sound;
+  for (std::size_t t = 0; t < tiles.size() && sound; ++t)
+  {
+    sound = check(tiles[t].is);
+  }
+  for (const CollectionChange& change : history)
+  {
+    for (std::size_t t = 0; t < change.removed.size() && sound; ++t)
+    {
+      sound = check(change.removed[t]);
+    }
+  }
+  return sound;
 }
 
 std::vector<std::byte> CollectionRecord::encode() const

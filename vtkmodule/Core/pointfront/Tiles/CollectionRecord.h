@@ -61,6 +61,9 @@ struct CollectionRecord
   HeadTreeKey treeOf(const CollectedTile& tile, std::size_t root) const;
   /// Those of all tiles, ascending; "" where some tiles have none.
   std::vector<std::string> epochs() const;
+  /// Whether the collection at `path` may name its tiles as it does, and those that it had, since a
+  /// change may be taken back. Errors  those of fileNamedBy() and refuseSettings().
+  Result<void> checkAddresses(const std::string& path) const;
 
   std::vector<std::byte> encode() const;
   /// Nothing: the bytes contradict themselves, or each other. A record of a newer version gives a

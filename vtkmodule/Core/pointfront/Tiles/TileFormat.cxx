@@ -103,10 +103,15 @@ Result<std::vector<std::string>> readTileList(const std::string& path)
   std::vector<std::string> files;
   for (const std::string& name : *names)
   {
-    const std::string at = beside(path, name); // an absolute name or an address stays as it is
-    const bool pattern =
-      !isAddress(at) && !fs::exists(at, failure) && name.find_first_of("*?[") != std::string::npos;
-    const std::vector<std::string> found = pattern ? matching(at) : std::vector<std::string>{ at };
+    const Result<std::string> at = fileNamedBy(path, name);
+    if (!at)
+    {
+      return at.error();
+    }
+    const bool pattern = !isAddress(*at) && !fs::exists(*at, failure) &&
+      name.find_first_of("*?[") != std::string::npos;
+    const std::vector<std::string> found =
+      pattern ? matching(*at) : std::vector<std::string>{ *at };
     if (found.empty())
     {
       return makeError(Error::Kind::NotFound, path + ": nothing matches '" + name + "'");

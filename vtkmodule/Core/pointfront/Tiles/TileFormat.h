@@ -12,7 +12,8 @@ namespace pointfront
 /// The stores that a list names, one in a line: paths or patterns (*, ?, [...]), relative to the
 /// list's folder. Blank lines and what follows a # at the beginning of a line are left out; a store
 /// that is named twice is taken once.
-/// Errors  NotFound: nothing is there by a name; BadFormat: a line that is no text; no name at all.
+/// Errors  NotFound: nothing is there by a name; BadFormat: a line that is no text; no name at all;
+///         those of fileNamedBy().
 Result<std::vector<std::string>> readTileList(const std::string& path);
 /// The lines that are names, as they stand there. BadFormat: as above.
 Result<std::vector<std::string>> parseTileList(std::string_view text, const std::string& path);

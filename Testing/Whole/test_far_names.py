@@ -163,6 +163,25 @@ class FarNames(ToolTest):
             with self.subTest(kind, name=name):
                 self.assert_refused(self.write(kind, name), "addresses", name.split("//")[-1])
 
+    def test_the_mode_of_a_folder_that_was_there_stays(self):
+        """The cache may lie in a folder that others use; what it makes there is for its user."""
+        shared = self.folder / "shared"
+        shared.mkdir()
+        shared.chmod(0o755)
+        address = f"{self.site}/{self.quoted()}"
+        for cloud, more in ((address, {"POINTFRONT_CACHE": str(shared)}),
+                            (f"{address}#far:cache={shared}", {})):
+            self.points(cloud, **more)
+            self.assertEqual(shared.stat().st_mode & 0o777, 0o755)
+            self.assertEqual(sorted(made.name for made in shared.iterdir()),
+                             ["places", "segments"])
+            for made in shared.iterdir():
+                self.assertEqual(made.stat().st_mode & 0o777, 0o700)
+                shutil.rmtree(made)
+        fresh = self.folder / "below" / "fresh"
+        self.points(address, POINTFRONT_CACHE=str(fresh))
+        self.assertEqual(fresh.stat().st_mode & 0o777, 0o700)
+
 
 if __name__ == "__main__":
     unittest.main()

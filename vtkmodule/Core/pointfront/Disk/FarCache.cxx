@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <cerrno>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -83,6 +84,20 @@ std::uint64_t usualLimitIn(const std::string& folder)
   return failure ? 0 : std::min<std::uint64_t>(usualLimit, space.available / 10);
 }
 
+/// A folder for this user alone, since a token may have opened what comes into it; those above it
+/// as usual. One that was there stays as it is: others may use it.
+bool makePrivate(const std::filesystem::path& named)
+{
+  const std::filesystem::path folder = named.has_filename() ? named : named.parent_path(); // "a/"
+  std::error_code failure;
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno == ENOENT && folder.has_parent_path())
+  {
+    std::filesystem::create_directories(folder.parent_path(), failure);
+    ::mkdir(folder.c_str(), 0700);
+  }
+  return std::filesystem::is_directory(folder, failure);
+}
+
 /// bytes: the most that it keeps; none: by the environment.
 Result<std::shared_ptr<const FarCache>> cacheIn(
   const std::string& folder, const std::optional<std::uint64_t>& bytes)
@@ -93,17 +108,10 @@ Result<std::shared_ptr<const FarCache>> cacheIn(
     return said.error();
   }
   const std::shared_ptr<const FarCache> none;
-  std::error_code failure;
-  if (folder.empty())
+  if (folder.empty() || !makePrivate(folder) || ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0)
   {
     return none;
   }
-  std::filesystem::create_directories(folder, failure);
-  if (failure || ::access(folder.c_str(), R_OK | W_OK | X_OK) != 0)
-  {
-    return none;
-  }
-  ::chmod(folder.c_str(), 0700); // a token may have opened its content
   const std::uint64_t most = *said ? **said : usualLimitIn(folder);
   return most > 0 ? std::make_shared<const FarCache>(folder, most) : none;
 }
@@ -250,10 +258,10 @@ void FarCache::keep(
     [&](std::uint64_t segment, std::uint64_t at, std::size_t done, std::size_t part)
     {
       const std::string path = segmentPath(identity, segment);
-      std::error_code failure;
-      std::filesystem::create_directories(std::filesystem::path(path).parent_path(), failure);
+      const bool room = makePrivate(folder_ + "/segments") &&
+        makePrivate(std::filesystem::path(path).parent_path());
       const FarSegment file(path, identity.text() + std::to_string(segment));
-      return !failure && file.write(at, first + done, part);
+      return room && file.write(at, first + done, part);
     });
   if (!kept)
   {
@@ -270,7 +278,7 @@ void FarCache::note(const FarIdentity& identity) const
   const std::string path = folder_ + "/places/" + nameOf(identity.place);
   const std::string fresh = path + '.' + std::to_string(::getpid());
   std::error_code failure;
-  std::filesystem::create_directories(folder_ + "/places", failure);
+  makePrivate(folder_ + "/places");
   {
     std::ofstream file(fresh, std::ios::binary);
     file << identity.text();

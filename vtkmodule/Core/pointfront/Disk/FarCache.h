@@ -34,7 +34,9 @@ struct FarIdentity
 /// Identity  a part of the name of what is kept: of a file that was replaced nothing is used.
 /// Bounded   what was not used for the longest time goes first.
 /// Safety    see FarSegment. What cannot be kept is not kept, and nobody hears of it.
-/// Secrets   none: neither query, user nor password. Its folder is the user's alone.
+/// Secrets   none: neither query, user nor password. The folders that it makes are the user's
+/// alone;
+///           one that was there keeps its mode.
 /// Choice    POINTFRONT_CACHE: its folder, or "off"; by itself "pointfront" in XDG_CACHE_HOME or
 ///           ~/.cache. POINTFRONT_CACHE_SIZE: bytes, also as "512M", "4G"; by itself 4 GiB, but at
 ///           most a tenth of the free space. POINTFRONT_OFFLINE=1: no server is asked.

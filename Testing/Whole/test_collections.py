@@ -60,7 +60,8 @@ class Collections(ToolTest):
         self.assertEqual((made["tiles"], made["points"], made["state"]), (8, 24000, 1))
         told = self.succeed("info", self.city, "--json").json
         self.assertEqual((told["points"], told["structure"]), (24000, "collection"))
-        self.assertTrue(self.succeed("verify", self.city, "--json").json["ok"])
+        verified = self.succeed("verify", self.city, "--json").json
+        self.assertEqual((verified["ok"], verified["points_checked"]), (True, 24000))
         self.assertTrue(self.collection("verify", self.city)["ok"])
         for source in (self.city, self.folder / "tiles"):
             self.succeed("export", source, "-o", self.folder / f"{source.name}.xyz",

@@ -414,6 +414,10 @@ std::shared_ptr<const NodeRanges> CollectionCloud::epochRanges(NodeIndex most) c
 Result<VerifyReport> CollectionCloud::verify(const ProgressFunction& progress) const
 {
   Result<VerifyReport> all = heads_->verify(progress);
+  if (all)
+  {
+    all->pointsChecked = 0; // heads hold copies of points that their tiles have
+  }
   for (std::size_t t = 0; t < record().tiles.size() && all && all->ok; ++t)
   {
     const Result<const CollectionTiles::Tile*> tile = table_->openTile(t);

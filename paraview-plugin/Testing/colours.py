@@ -2,7 +2,8 @@
 
 POINTFRONT_STORE has colours that are black everywhere, and an intensity; POINTFRONT_COLOURED has
 colours. Saves colours-opened.png, colours-elevation.png, colours-amplitude.png,
-colours-point_id.png, and with a legend colours-bar-elevation.png, colours-bar-point_id.png and colours-bar-rgb.png.
+colours-point_id.png, and with a legend colours-bar-elevation.png, colours-bar-point_id.png and
+colours-bar-rgb.png.
 """
 
 import os

@@ -437,20 +437,11 @@ TEST(PointColouring, FewIntegersGetATableOfTheirOwn)
   ASSERT_TRUE(classes.integers);
   EXPECT_EQ((*classes.integers)[0], 2);
   EXPECT_EQ((*classes.integers)[1], 9);
+  StoreDescription next = description(); // a time step: a mapper samples its table again
+  next.ranges[1].components[0][1] = 12.0;
+  EXPECT_NE(classes, *PointColouring::choose(next, request));
   request.name = "scaled";
   EXPECT_FALSE(PointColouring::choose(description(), request)->integers);
-}
-
-/// A mapper that goes on to the next time step samples its table again if these differ.
-TEST(PointColouring, OtherIntegersAreAnotherColouring)
-{
-  ColourRequest request;
-  request.name = "classification";
-  StoreDescription next = description();
-  const PointColouring before = *PointColouring::choose(next, request);
-  EXPECT_EQ(before, *PointColouring::choose(description(), request));
-  next.ranges[1].components[0][1] = 12.0;
-  EXPECT_NE(before, *PointColouring::choose(next, request));
 }
 
 } // namespace

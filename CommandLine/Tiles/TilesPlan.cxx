@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <set>
 #include <sstream>
+#include <utility>
 
 namespace pointfront
 {
@@ -197,7 +198,7 @@ Result<MosaicPlan> TilesBuild::planned(
   {
     return placed.error();
   }
-  const auto system = commonReferenceSystem(*placed);
+  auto system = commonReferenceSystem(*placed);
   const auto schema = commonSchema(*placed, std::nullopt);
   const auto grid = chooseGrid(*placed, request_.options.precision);
   const Result<double> edge = chosenEdge(*placed);
@@ -212,7 +213,10 @@ Result<MosaicPlan> TilesBuild::planned(
   {
     return large.error();
   }
-  for (const auto* warnings : { &system->warnings, &schema->warnings, &grid->warnings })
+  system->keepTimes(
+    *placed, [&](std::size_t input) { return (*placed)[input]->description().pointCount > 0; });
+  for (const auto* warnings :
+    { &std::as_const(*system).warnings, &schema->warnings, &grid->warnings })
   {
     std::for_each(warnings->begin(), warnings->end(), request_.warn);
   }

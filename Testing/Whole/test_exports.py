@@ -128,6 +128,38 @@ class Exports(ToolTest):
             out, _ = self.export(cloud, "one.las")
             self.assertEqual(out.read_bytes()[6] & 1, bit, cloud)
 
+    def test_inputs_without_points_do_not_choose_the_kind_of_gps_times(self):
+        """Neither files that have none, nor those whose points all lie outside of the box."""
+        week = bytearray(SMALL.read_bytes())
+        self.assertEqual(week[6] & 1, 0)
+        standard = self.folder / "standard.las"
+        standard.write_bytes(week[:6] + bytes([week[6] | 1]) + week[7:])
+        empty = self.folder / "aempty.las"  # its kind is that of the first input
+        self.succeed("build", SMALL, "-o", self.folder / "week.pfront")
+        self.export(self.folder / "week.pfront", "aempty.las", "--box", "0,0,0,1,1,1")
+        self.succeed("build", empty, "-o", self.folder / "empty.pfront")
+        away = bytearray(week)  # its header has the bounds of points that are elsewhere
+        struct.pack_into("<d", away, 155, struct.unpack_from("<d", away, 155)[0] + 5000.0)
+        (self.folder / "away.las").write_bytes(away)
+        box = self.succeed("info", self.folder / "week.pfront", "--json").json["bounds"]
+        self.assertEqual(len(box), 6)
+        cases = [("one", (empty, standard), ()), ("two", (standard, empty), ()),
+                 ("stores", (self.folder / "empty.pfront", standard), ()),
+                 ("box", (self.folder / "away.las", standard),
+                  ("--box", ",".join(map(repr, box))))]
+        for name, inputs, options in cases:
+            store = self.folder / f"{name}.pfront"
+            outcome = self.succeed("build", *inputs, "-o", store, *options)
+            self.assertNotIn("GPS", outcome.err, name)
+            out, _ = self.export(store, f"{name}.las")
+            self.assertEqual(out.read_bytes()[6] & 1, 1, name)
+        folder = self.folder / "tiles"
+        outcome = self.succeed("build", empty, standard, "-o", folder, "--tiles", "--tile", "50")
+        self.assertNotIn("GPS", outcome.err)
+        city, = folder.glob("*.pfcollection")
+        out, _ = self.export(city, "city.las")
+        self.assertEqual(out.read_bytes()[6] & 1, 1)
+
     def test_angles_that_are_no_whole_degrees_get_a_format_of_fine_steps(self):
         text = self.folder / "a.csv"
         for angles, point_format, said in (

@@ -225,6 +225,18 @@ std::unique_ptr<CloudSource> timed(const std::string& path, std::uint8_t bits)
   return source;
 }
 
+/// The system of all these sources; those whose path begins with "no points" give none.
+Result<ReferenceSystem> timedSystem(const Sources& sources)
+{
+  Result<ReferenceSystem> system = commonReferenceSystem(sources);
+  if (system)
+  {
+    system->keepTimes(sources,
+      [&](std::size_t s) { return sources[s]->description().path.rfind("no points", 0) != 0; });
+  }
+  return system;
+}
+
 GpsTimes timesIn(const ReferenceSystem& system)
 {
   AttributeSchema schema;
@@ -237,12 +249,12 @@ TEST(ReferenceSystem, SaysWhatGpsTimesAllSourcesHave)
   Sources sources;
   sources.push_back(schemaSource("no time", {}));
   sources.push_back(timed("standard", 17));
-  auto common = commonReferenceSystem(sources);
+  auto common = timedSystem(sources);
   ASSERT_TRUE(common);
   EXPECT_EQ(timesIn(*common), GpsTimes::Standard) << "though the first source has none";
   EXPECT_TRUE(common->warnings.empty());
   sources.push_back(timed("week", 0));
-  common = commonReferenceSystem(sources);
+  common = timedSystem(sources);
   ASSERT_TRUE(common);
   EXPECT_EQ(timesIn(*common), GpsTimes::Mixed);
   ASSERT_EQ(common->warnings.size(), 1u);
@@ -254,10 +266,26 @@ TEST(ReferenceSystem, SaysWhatGpsTimesAllSourcesHave)
   again->editDescription().metadata = common->metadata;
   Sources one;
   one.push_back(std::move(again));
-  const auto stored = commonReferenceSystem(one);
+  const auto stored = timedSystem(one);
   ASSERT_TRUE(stored);
   EXPECT_EQ(timesIn(*stored), GpsTimes::Mixed);
   EXPECT_TRUE(stored->warnings.empty());
+}
+
+TEST(ReferenceSystem, SourcesWithoutPointsHaveNoSayInGpsTimes)
+{
+  Sources sources;
+  auto week = timed("no points, week", 0);
+  week->editDescription().crsWkt = "a system";
+  sources.push_back(std::move(week));
+  auto mixed = timed("no points, both", 0);
+  mixed->editDescription().metadata.push_back({ lasKeptOwner, lasMixedTimesRecord, "", {} });
+  sources.push_back(std::move(mixed));
+  sources.push_back(timed("standard", 1));
+  const auto common = timedSystem(sources);
+  ASSERT_TRUE(common);
+  EXPECT_EQ(timesIn(*common), GpsTimes::Standard) << "though the records are those of the first";
+  EXPECT_EQ(common->warnings.size(), 2u) << "two name no system";
 }
 
 /// A file with one colour for all its points.

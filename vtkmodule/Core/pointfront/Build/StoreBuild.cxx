@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace pointfront
 {
@@ -92,7 +93,7 @@ Result<void> StoreBuild::prepare()
   }
   reference_ = std::move(*reference);
   common_ = std::move(*schema);
-  append(report_.warnings, reference_.warnings);
+  append(report_.warnings, std::exchange(reference_.warnings, {}));
   append(report_.warnings, common_.warnings);
   append(report_.warnings, grid->warnings);
   if (Result<void> ready = addRadius(); !ready)
@@ -237,6 +238,12 @@ Result<void> StoreBuild::findShortSources()
     : Result<void>();
 }
 
+/// Whether points of that input are stored.
+bool StoreBuild::givesPoints(std::size_t source) const
+{
+  return points_.sourceEnd[source] > (source > 0 ? points_.sourceEnd[source - 1] : 0);
+}
+
 /// Inputs that have points, none of which can be stored.
 Result<void> StoreBuild::findEmptySources()
 {
@@ -249,8 +256,7 @@ Result<void> StoreBuild::findEmptySources()
   for (std::size_t s = 0; s < sources_.size(); ++s)
   {
     const SourceDescription& source = sources_[s]->description();
-    const std::uint64_t before = s > 0 ? points_.sourceEnd[s - 1] : 0;
-    if (source.pointCount == 0 || points_.sourceEnd[s] > before)
+    if (source.pointCount == 0 || givesPoints(s))
     {
       continue;
     }
@@ -284,6 +290,8 @@ Result<void> StoreBuild::read()
     report_.warnings.push_back(std::to_string(points_.read - points_.kept) + " of " +
       std::to_string(points_.read) + " points are left out: " + rejectionText(report_) + ".");
   }
+  reference_.keepTimes(sources_, [this](std::size_t source) { return givesPoints(source); });
+  append(report_.warnings, std::exchange(reference_.warnings, {}));
   report_.phaseSeconds["read"] = points_.readSeconds;
   report_.phaseSeconds["quantise and count"] = points_.quantiseSeconds;
   report_.spilledBytes = storage_.pool->onDisk() ? points_.kept * storage_.pool->recordBytes() : 0;

@@ -46,6 +46,7 @@ private:
   Result<void> readAll();
   bool narrowShifts();
   Result<void> findEmptySources();
+  bool givesPoints(std::size_t source) const;
   Result<void> findShortSources();
   void takeLayers();
   Result<void> cutIntoParts();

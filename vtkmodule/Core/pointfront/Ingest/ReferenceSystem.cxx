@@ -3,6 +3,7 @@
 #include "pointfront/Points/GpsTimes.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace pointfront
 {
@@ -78,18 +79,26 @@ Result<ReferenceSystem> commonReferenceSystem(
   {
     system.metadata = sources.front()->description().metadata;
   }
-  GatheredTimes times;
-  for (const auto& source : sources)
-  {
-    const SourceDescription& description = source->description();
-    times.add(description.path, description.schema, description.metadata);
-  }
-  times.keepIn(system.metadata);
-  if (const std::string warning = times.warning(); !warning.empty())
-  {
-    system.warnings.push_back(warning);
-  }
   return system;
+}
+
+void ReferenceSystem::keepTimes(const std::vector<std::unique_ptr<PointSource>>& sources,
+  const std::function<bool(std::size_t)>& givesPoints)
+{
+  GatheredTimes times;
+  for (std::size_t s = 0; s < sources.size(); ++s)
+  {
+    const SourceDescription& description = sources[s]->description();
+    if (givesPoints(s))
+    {
+      times.add(description.path, description.schema, description.metadata);
+    }
+  }
+  times.keepIn(metadata);
+  if (std::string warning = times.warning(); !warning.empty())
+  {
+    warnings.push_back(std::move(warning));
+  }
 }
 
 } // namespace pointfront

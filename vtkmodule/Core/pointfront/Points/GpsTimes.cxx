@@ -78,11 +78,11 @@ std::string GatheredTimes::warning() const
 
 void GatheredTimes::keepIn(std::vector<MetadataRecord>& metadata) const
 {
+  removeKept(metadata, lasMixedTimesRecord);
   if (times_ == GpsTimes::Unknown)
   {
     return;
   }
-  removeKept(metadata, lasMixedTimesRecord);
   const auto known = keptRecord(metadata, lasKeptEncodingRecord);
   if (!encoding_.payload.empty() &&
     (known == metadata.end() || known->payload != encoding_.payload))

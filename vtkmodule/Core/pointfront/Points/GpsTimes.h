@@ -38,7 +38,8 @@ public:
   GpsTimes times() const { return times_; }
   /// Where the added ones differ from each other: a sentence about it; else "".
   std::string warning() const;
-  /// Makes the records say what times() are, where they are known.
+  /// Makes the records say what times() are, where they are known; else no record says that they
+  /// are mixed.
   void keepIn(std::vector<MetadataRecord>& metadata) const;
 
 private:

@@ -246,7 +246,10 @@ void compareTimes(StoreDescription& whole, const Tiles& tiles)
   GatheredTimes times;
   for (const DescribedTiles& tile : tiles)
   {
-    times.add(tile->path, tile->schema, tile->metadata);
+    if (tile->pointCount > 0)
+    {
+      times.add(tile->path, tile->schema, tile->metadata);
+    }
   }
   times.keepIn(whole.metadata);
   if (const std::string warning = times.warning(); !warning.empty())

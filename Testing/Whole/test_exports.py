@@ -160,6 +160,40 @@ class Exports(ToolTest):
         out, _ = self.export(city, "city.las")
         self.assertEqual(out.read_bytes()[6] & 1, 1)
 
+    def test_an_epoch_has_its_own_gps_times_and_attributes(self):
+        """And not those of the other epochs' tiles."""
+        standard = bytearray(SMALL.read_bytes())
+        standard[6] |= 1
+        (self.folder / "standard.las").write_bytes(standard)
+        self.succeed("build", SMALL, "-o", self.folder / "week.pfront")
+        self.succeed("build", self.folder / "standard.las", "-o", self.folder / "standard.pfront",
+                     "--attributes", "gps_time,intensity")
+        city = self.folder / "city.pfcollection"
+        self.succeed("collection", "create", city, self.folder / "week.pfront", "--epoch", "old")
+        told = self.succeed("collection", "add", city, self.folder / "standard.pfront",
+                            "--epoch", "new")
+        self.assertIn("both kinds", told.err)
+        self.assertIn("1 of 2 stores lack", told.err)
+        refused = pointfront("export", city, "-o", self.folder / "a.las")
+        self.assertEqual(refused.status, 1)
+        self.assertIn("GPS times of two kinds", refused.err)
+        for epoch, bit in (("old", 0), ("new", 1)):
+            for name in ("a.las", "a.copc.laz"):
+                out, outcome = self.export(city, name, "--epoch", epoch)
+                self.assertEqual(out.read_bytes()[6] & 1, bit, (epoch, name))
+                self.assertNotIn("GPS", outcome.err)
+                self.assertNotIn("lack", outcome.err)
+            self.assertEqual("No store of this epoch has" in outcome.err, epoch == "new")
+            alone = "week" if epoch == "old" else "standard"
+            texts = [self.export(*of)[0].read_text().splitlines() for of in (
+                (city, "epoch.csv", "--epoch", epoch),
+                (self.folder / f"{alone}.pfront", "alone.csv"))]
+            self.assertEqual(*map(sorted, texts))
+            self.assertEqual("red" in texts[0][0], epoch == "old")
+            names = [[a["name"] for a in self.succeed("info", *of, "--json").json["attributes"]]
+                     for of in ((city, "--epoch", epoch), (self.folder / f"{alone}.pfront",))]
+            self.assertEqual(*names)
+
     def test_angles_that_are_no_whole_degrees_get_a_format_of_fine_steps(self):
         text = self.folder / "a.csv"
         for angles, point_format, said in (

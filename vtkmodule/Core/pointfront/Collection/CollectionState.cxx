@@ -89,30 +89,6 @@ void CollectionState::takeTiles(std::vector<IncomingTile>& added, const Collecti
   }
 }
 
-/// The tiles of the next state by their kinds, in the order in which tiles have them first.
-/// `places` gets the place of each kind.
-std::vector<AlikeTiles> CollectionState::alikeTiles(std::vector<std::size_t>& places) const
-{
-  constexpr std::size_t none = SIZE_MAX;
-  std::vector<AlikeTiles> alike;
-  places.assign(next_.kinds.size(), none);
-  for (std::size_t t = 0; t < next_.tiles.size(); ++t)
-  {
-    const CollectedTile& tile = next_.tiles[t];
-    std::size_t& place = places[tile.kind];
-    if (place == none)
-    {
-      place = alike.size();
-      alike.emplace_back().begin(next_.description(t, tile.is.address));
-    }
-    else
-    {
-      alike[place].add(tile);
-    }
-  }
-  return alike;
-}
-
 /// How stored points become those of the next state, if they differ.
 Result<void> CollectionState::chooseAdaption()
 {
@@ -138,7 +114,7 @@ Result<void> CollectionState::chooseAdaption()
 Result<std::vector<TileDescription::Part>> CollectionState::describe(std::size_t added)
 {
   std::vector<std::size_t> places;
-  std::vector<AlikeTiles> alike = alikeTiles(places);
+  std::vector<AlikeTiles> alike = next_.alikeTiles(std::nullopt, places);
   std::vector<QuantisationGrid> grids;
   grids.reserve(next_.tiles.size() + 1);
   for (const CollectedTile& tile : next_.tiles)

@@ -38,7 +38,6 @@ public:
 
 private:
   void takeTiles(std::vector<IncomingTile>& added, const CollectionOptions& options);
-  std::vector<AlikeTiles> alikeTiles(std::vector<std::size_t>& places) const;
   Result<std::vector<TileDescription::Part>> describe(std::size_t added);
   Result<void> chooseAdaption();
   Result<void> openTrees();

@@ -107,7 +107,11 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
   cloud->description_.epochs = record->epochs();
   if (asked.epoch)
   {
-    cloud->describeEpoch(*asked.epoch);
+    if (const Result<void> told = cloud->tiles_->describeEpoch(*asked.epoch, cloud->description_);
+        !told)
+    {
+      return told.error();
+    }
   }
   cloud->description_.fileBytes += cloud->heads_->description().fileBytes;
   cloud->epochs_ = EpochColumn::of(cloud->table_, *record);
@@ -129,39 +133,6 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
     [](const CollectedTile& tile) { return isAddress(tile.is.address); });
   raiseOpenFiles(record->tiles.size());
   return std::shared_ptr<const CollectionCloud>(std::move(cloud));
-}
-
-/// Counts and bounds of the tiles of one epoch.
-void CollectionCloud::describeEpoch(const std::string& epoch)
-{
-  StoreDescription& whole = description_;
-  whole.epochs = { epoch };
-  whole.bounds = Bounds();
-  whole.pointCount = whole.wholeCount = whole.fileBytes = 0;
-  for (Layer& layer : whole.layers)
-  {
-    layer.pointCount = layer.nodeCount = 0;
-  }
-  for (const CollectedTile& tile : record().tiles)
-  {
-    if (tile.is.epoch != epoch)
-    {
-      continue;
-    }
-    whole.bounds.add(tile.bounds);
-    whole.pointCount += tile.pointCount;
-    whole.wholeCount += tile.wholeCount;
-    whole.fileBytes += tile.fileBytes;
-    for (std::size_t l = 0; l < tile.layers.size(); ++l)
-    {
-      const std::uint16_t at = record().layerOf(tile, static_cast<std::uint16_t>(l));
-      if (at < whole.layers.size()) // else it has no node
-      {
-        whole.layers[at].pointCount += tile.layers[l].first;
-        whole.layers[at].nodeCount += tile.layers[l].second;
-      }
-    }
-  }
 }
 
 std::vector<std::string> CollectionCloud::files() const

@@ -31,7 +31,8 @@ class CollectionCloud final : public StoredCloud
 public:
   /// `path` may name an epoch (EpochAddress): then the cloud's points are those of its tiles, with
   /// the numbers that they have among all. Ranges stay those of all tiles, so that colours by a
-  /// range mean the same in each epoch.
+  /// range mean the same in each epoch, and so do attributes: those that none of its tiles has are
+  /// computed, as zeros.
   static Result<std::shared_ptr<const CollectionCloud>> open(const std::string& path);
   /// The record in a collection's open file.
   static Result<CollectionRecord> recordOf(const PointStore& heads);
@@ -74,7 +75,6 @@ private:
   ColumnSelection stored(const ColumnSelection& columns) const;
   ValueRange rangeOf(std::size_t tile, std::uint32_t component) const;
   std::shared_ptr<const NodeRanges> epochRanges(NodeIndex most) const;
-  void describeEpoch(const std::string& epoch);
 
   std::shared_ptr<const PointStore> heads_;
   std::shared_ptr<const CollectionTiles> tiles_;

@@ -269,6 +269,30 @@ HeadTreeKey CollectionRecord::treeOf(const CollectedTile& tile, std::size_t root
   return { layerOf(tile, tile.roots[root].row.layer), tile.is.epoch };
 }
 
+std::vector<AlikeTiles> CollectionRecord::alikeTiles(
+  const std::optional<std::string>& epoch, std::vector<std::size_t>& places) const
+{
+  constexpr std::size_t none = SIZE_MAX;
+  std::vector<AlikeTiles> alike;
+  places.assign(kinds.size(), none);
+  for (std::size_t t = 0; t < tiles.size(); ++t)
+  {
+    const CollectedTile& tile = tiles[t];
+    std::size_t& place = places[tile.kind];
+    const bool shown = !epoch || tile.is.epoch == *epoch;
+    if (shown && place != none)
+    {
+      alike[place].add(tile);
+    }
+    else if (shown)
+    {
+      place = alike.size();
+      alike.emplace_back().begin(description(t, tile.is.address));
+    }
+  }
+  return alike;
+}
+
 std::vector<std::string> CollectionRecord::epochs() const
 {
   std::set<std::string> all;

@@ -3,6 +3,7 @@
 #include "pointfront/Store/GridBounds.h"
 #include "pointfront/Store/StoredCloud.h"
 #include "pointfront/Tiles/CollectedTile.h"
+#include "pointfront/Tiles/TileDescription.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -59,6 +60,10 @@ struct CollectionRecord
   std::uint16_t layerOf(const CollectedTile& tile, std::uint16_t own) const;
   /// The tree that a root of a tile hangs in.
   HeadTreeKey treeOf(const CollectedTile& tile, std::size_t root) const;
+  /// The tiles, all or those of one epoch, by their kinds, in the order in which tiles have them
+  /// first. `places` gets the place of each kind; behind all where no tile has it.
+  std::vector<AlikeTiles> alikeTiles(
+    const std::optional<std::string>& epoch, std::vector<std::size_t>& places) const;
   /// Those of all tiles, ascending; "" where some tiles have none.
   std::vector<std::string> epochs() const;
   /// Whether the collection at `path` may name its tiles as it does, and those that it had, since a

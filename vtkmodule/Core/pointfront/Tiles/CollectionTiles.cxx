@@ -1,8 +1,10 @@
 #include "pointfront/Tiles/CollectionTiles.h"
 
 #include "pointfront/Disk/ByteOpeners.h"
+#include "pointfront/Points/GpsTimes.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
 
+#include <algorithm>
 #include <atomic>
 #include <mutex>
 #include <optional>
@@ -10,6 +12,40 @@
 
 namespace pointfront
 {
+namespace
+{
+/// Counts and bounds of the tiles.
+void countEpoch(const CollectionRecord& record, const std::string& epoch, StoreDescription& whole)
+{
+  whole.epochs = { epoch };
+  whole.bounds = Bounds();
+  whole.pointCount = whole.wholeCount = whole.fileBytes = 0;
+  for (Layer& layer : whole.layers)
+  {
+    layer.pointCount = layer.nodeCount = 0;
+  }
+  for (const CollectedTile& tile : record.tiles)
+  {
+    if (tile.is.epoch != epoch)
+    {
+      continue;
+    }
+    whole.bounds.add(tile.bounds);
+    whole.pointCount += tile.pointCount;
+    whole.wholeCount += tile.wholeCount;
+    whole.fileBytes += tile.fileBytes;
+    for (std::size_t l = 0; l < tile.layers.size(); ++l)
+    {
+      const std::uint16_t at = record.layerOf(tile, static_cast<std::uint16_t>(l));
+      if (at < whole.layers.size()) // else it has no node
+      {
+        whole.layers[at].pointCount += tile.layers[l].first;
+        whole.layers[at].nodeCount += tile.layers[l].second;
+      }
+    }
+  }
+}
+} // namespace
 
 struct CollectionTiles::Slot
 {
@@ -126,6 +162,43 @@ Result<std::unique_ptr<const CollectionTiles::Tile>> CollectionTiles::openNow(
       before + " has attributes that the collection does not know" + advice);
   }
   return std::unique_ptr<const Tile>(new Tile{ std::move(*cloud), std::move(described->parts[1]) });
+}
+
+Result<void> CollectionTiles::describeEpoch(const std::string& epoch, StoreDescription& whole) const
+{
+  countEpoch(*record_, epoch, whole);
+  const std::vector<CollectedTile>& tiles = record_->tiles;
+  std::vector<QuantisationGrid> grids{ whole.grid }; // where their points are placed
+  std::for_each(tiles.begin(), tiles.end(),
+    [&](const CollectedTile& tile)
+    { tile.is.epoch == epoch ? grids.push_back(tile.grid) : void(); });
+  std::vector<std::size_t> places;
+  Result<TileDescription> described =
+    TileDescription::of(whole.path, record_->alikeTiles(epoch, places), grids, {});
+  if (!described)
+  {
+    return described.error();
+  }
+  const StoreDescription& own = described->whole;
+  whole.warnings = own.warnings;
+  GatheredTimes times;
+  times.add(whole.path, own.schema, own.metadata);
+  times.keepIn(whole.metadata);
+  whole.computed.clear();
+  std::string lacked;
+  for (std::uint32_t c = 0; c < whole.schema.size(); ++c)
+  {
+    const std::string& name = whole.schema[c].name;
+    const std::optional<std::size_t> at = own.schema.find(name);
+    lacked += at ? "" : (lacked.empty() ? "" : ", ") + name;
+    if (!at || own.isComputed(*at))
+    {
+      whole.computed.push_back(c);
+    }
+  }
+  const std::string told = "No store of this epoch has " + lacked + ", which other epochs have; ";
+  lacked.empty() ? void() : whole.warnings.push_back(told + "who names it gets zeros.");
+  return {};
 }
 
 } // namespace pointfront

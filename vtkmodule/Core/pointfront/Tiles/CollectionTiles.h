@@ -31,6 +31,11 @@ public:
   const CollectionRecord& record() const { return *record_; }
   /// Path or address of a tile.
   std::string addressOf(std::size_t tile) const;
+  /// Makes a description of the whole that of the tiles of one epoch: counts, bounds, layers, the
+  /// kind of GPS times, and what differs among them. Columns and ranges stay those of all tiles;
+  /// columns that no tile of the epoch has become computed ones.
+  /// Errors  those of TileDescription::of().
+  Result<void> describeEpoch(const std::string& epoch, StoreDescription& whole) const;
 
   /// May wait for the disk.
   Result<const Tile*> open(std::size_t tile) const;

@@ -180,7 +180,8 @@ ColumnSelection computedColumns(const StoreDescription& whole, const Tiles& tile
   return computed;
 }
 
-void chooseGrid(StoreDescription& whole, const std::vector<QuantisationGrid>& grids)
+void chooseGrid(
+  StoreDescription& whole, std::size_t stores, const std::vector<QuantisationGrid>& grids)
 {
   whole.grid = TilePlacing::commonGrid(grids);
   std::size_t rounded = 0;
@@ -195,7 +196,7 @@ void chooseGrid(StoreDescription& whole, const std::vector<QuantisationGrid>& gr
       " do not lie on the grid of the finest; their points are rounded, by at most %.9g, %.9g, "
       "%.9g units.",
       0.5 * whole.grid.scale.x, 0.5 * whole.grid.scale.y, 0.5 * whole.grid.scale.z);
-    whole.warnings.push_back(countOf(rounded, grids.size()) + text);
+    whole.warnings.push_back(countOf(rounded, stores) + text);
   }
 }
 
@@ -316,7 +317,7 @@ std::vector<std::vector<std::uint16_t>> addLayers(StoreDescription& whole, const
   return own;
 }
 
-/// `grids`: those of all stores.
+/// `grids`: those of all stores, and others whose steps the whole has, too.
 Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
   const std::vector<QuantisationGrid>& grids, std::vector<std::string> warnings)
 {
@@ -334,7 +335,7 @@ Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
     return columns.error();
   }
   compareColumns(whole, tiles, *columns);
-  chooseGrid(whole, grids);
+  chooseGrid(whole, countOf(tiles), grids);
   compareSystems(whole, tiles);
   compareTimes(whole, tiles);
   compareDistances(whole, tiles);

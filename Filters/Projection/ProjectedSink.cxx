@@ -77,6 +77,7 @@ Result<void> ProjectedSink::begin(const SinkDescription& description)
     source.grid = description.grid;
     source.declaredBounds = result.bounds;
     result.grid = transformedGrid(source, *from, *to, result.bounds, std::nullopt);
+    result.stepBefore = transformedSteps(description.grid.scale, *from, *to);
     result.pointCount = 0; // some may be left out
   }
   result.crsWkt = to->wkt;

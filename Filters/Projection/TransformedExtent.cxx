@@ -21,10 +21,16 @@ double powerOfTenUpTo(double step)
   return std::pow(10.0, std::floor(std::log10(step) + nearlyWhole));
 }
 
-double stepFor(double step, double from, double to, double most)
+/// `wanted`: as coarse as is no loss.
+double stepFor(double wanted, double most)
 {
-  const double wanted = step > 0.0 && std::isfinite(step) ? step * from / to : most;
-  return std::min(most, powerOfTenUpTo(wanted));
+  const bool known = wanted > 0.0 && std::isfinite(wanted);
+  return std::min(most, powerOfTenUpTo(known ? wanted : most));
+}
+
+bool heightsChange(const CoordinateSystem& from, const CoordinateSystem& to)
+{
+  return (from.vertical && to.vertical) || from.geocentric || to.geocentric;
 }
 
 /// The coarsest tenth, hundredth ... of `coarse` that is no coarser than `step`.
@@ -70,13 +76,21 @@ Result<Bounds> transformedBounds(const Bounds& bounds, const CoordinateTransform
   return transformed;
 }
 
+glm::dvec3 transformedSteps(
+  const glm::dvec3& steps, const CoordinateSystem& from, const CoordinateSystem& to)
+{
+  const double plane = groundLength(from) / groundLength(to);
+  const double height = heightsChange(from, to) ? from.heightUnit / to.heightUnit : 0.0;
+  return steps * glm::dvec3(plane, plane, height);
+}
+
 QuantisationGrid transformedGrid(const SourceDescription& source, const CoordinateSystem& from,
   const CoordinateSystem& to, const Bounds& extent, const std::optional<QuantisationGrid>& resident)
 {
   const glm::dvec3 old = source.grid ? source.grid->scale : glm::dvec3(0.0);
   const glm::dvec3 middle = extent.empty() ? glm::dvec3(0.0) : extent.centre();
   const double whole = to.geographic ? 1.0 : 1000.0;
-  const bool heightsChange = (from.vertical && to.vertical) || from.geocentric || to.geocentric;
+  const glm::dvec3 lossless = transformedSteps(old, from, to);
   QuantisationGrid grid;
   for (int axis = 0; axis < 3; ++axis)
   {
@@ -84,13 +98,12 @@ QuantisationGrid transformedGrid(const SourceDescription& source, const Coordina
     double& offset = grid.offset[axis];
     if (axis < 2)
     {
-      scale = stepFor(
-        old[axis], groundLength(from), groundLength(to), to.geographic ? angularStep : lengthStep);
+      scale = stepFor(lossless[axis], to.geographic ? angularStep : lengthStep);
       offset = roundTo(middle[axis], whole);
     }
-    else if (heightsChange)
+    else if (heightsChange(from, to))
     {
-      scale = stepFor(old.z, from.heightUnit, to.heightUnit, lengthStep);
+      scale = stepFor(lossless.z, lengthStep);
       offset = to.geocentric ? roundTo(middle.z, whole) : 0.0;
     }
     else

@@ -23,6 +23,10 @@ QuantisationGrid transformedGrid(const SourceDescription& source, const Coordina
   const CoordinateSystem& to, const Bounds& extent,
   const std::optional<QuantisationGrid>& resident);
 
+/// The steps of a grid in `from`, measured in the units of `to`; 0 on an axis that stays as it is.
+glm::dvec3 transformedSteps(
+  const glm::dvec3& steps, const CoordinateSystem& from, const CoordinateSystem& to);
+
 /// Step of x and y for coordinates of floating point that are angles.
 constexpr double angularStep = 1e-9;
 /// Longest step of lengths, metres.

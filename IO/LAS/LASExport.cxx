@@ -6,6 +6,7 @@
 #include "LASHeader.h"
 #include "LASRecords.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Points/GpsTimes.h"
 
 #include <algorithm>
@@ -84,6 +85,40 @@ int pointFormatFor(const Needs& needs)
   return nir ? 8 : (rgb ? 7 : 6);
 }
 
+constexpr double steps32 = std::numeric_limits<std::uint32_t>::max(); ///< that integers reach over
+
+/// Gives an axis of transformed coordinates, which lie on no grid, the finest decimal step with
+/// which 32 bits reach over the extent.
+/// Errors  BadArgument: it would round by more than the step that they had before.
+Result<void> coarsenStep(
+  const SinkDescription& description, const std::string& path, int axis, LASExport& plan)
+{
+  constexpr int digits = 9;
+  const double extent = description.bounds.size()[axis];
+  const double before = description.stepBefore[axis];
+  const double step = std::pow(10.0, std::ceil(std::log10(extent / (steps32 - 2.0))));
+  const std::string name(1, "xyz"[axis]);
+  if (0.5 * step > before)
+  {
+    return makeError(Error::Kind::BadArgument,
+      path + ": the extent in " + name + " is " + numberText(extent, digits) + ", and " +
+        numberText(step, digits) +
+        " is the finest step with which the 32 bits of LAS reach over it, which would round by "
+        "more than the step that the coordinates had before they were transformed, " +
+        numberText(before, digits) +
+        "; export a part of it (--box), or into text (.csv, .xyz), which has all digits");
+  }
+  if (step > before)
+  {
+    plan.coarserSteps.push_back("The step of " + name + " is " + numberText(step, digits) +
+      ", the finest with which the 32 bits of LAS reach over the extent; before the coordinates "
+      "were transformed, it was " +
+      numberText(before, digits) + ".");
+  }
+  plan.grid.scale[axis] = step;
+  return {};
+}
+
 /// The grid of the description, its offset moved by whole steps if integers of 32 bits would not
 /// reach all of `bounds`.
 Result<void> placeGrid(const SinkDescription& description, const std::string& path, LASExport& plan)
@@ -97,6 +132,14 @@ Result<void> placeGrid(const SinkDescription& description, const std::string& pa
   constexpr double highest = std::numeric_limits<std::int32_t>::max();
   for (int axis = 0; axis < 3; ++axis)
   {
+    if (description.stepBefore[axis] > 0.0 &&
+      description.bounds.size()[axis] / plan.grid.scale[axis] > steps32)
+    {
+      if (Result<void> done = coarsenStep(description, path, axis, plan); !done)
+      {
+        return done;
+      }
+    }
     const double scale = plan.grid.scale[axis];
     const double low = std::round((description.bounds.low[axis] - plan.grid.offset[axis]) / scale);
     const double high =
@@ -104,8 +147,8 @@ Result<void> placeGrid(const SinkDescription& description, const std::string& pa
     if (high - low > highest - lowest)
     {
       return makeError(Error::Kind::BadArgument,
-        path + ": the extent in " + "xyz"[axis] + " is " + std::to_string((high - low) * scale) +
-          ", LAS has 32 bits for it at a step of " + std::to_string(scale) +
+        path + ": the extent in " + "xyz"[axis] + " is " + numberText((high - low) * scale, 9) +
+          ", LAS has 32 bits for it at a step of " + numberText(scale, 9) +
           "; export a part of it, or build with a coarser precision");
     }
     if (low < lowest || high > highest)
@@ -261,7 +304,10 @@ LASDate LASDate::today()
 
 std::vector<std::string> LASExport::findings(const LASTotals& totals) const
 {
-  return fieldFindings(*this, totals);
+  std::vector<std::string> all = coarserSteps;
+  const std::vector<std::string> ofFields = fieldFindings(*this, totals);
+  all.insert(all.end(), ofFields.begin(), ofFields.end());
+  return all;
 }
 
 std::size_t LASExport::headerBytes() const

@@ -72,8 +72,10 @@ struct LASExport
   std::vector<std::string> exactNames;
   /// OfCOPC: the reference system was known by GeoTIFF keys only, which are left out.
   bool lostGeoKeys = false;
+  /// Axes with a coarser step than transformed coordinates had before: a sentence for each.
+  std::vector<std::string> coarserSteps;
 
-  /// Attributes that their fields do not hold as they are: full sentences.
+  /// Steps and attributes that are not as they were: full sentences.
   std::vector<std::string> findings(const LASTotals& totals) const;
   std::size_t headerBytes() const;
   /// Room for the header, and `all` behind it as they stand in a file.

@@ -194,6 +194,37 @@ class Exports(ToolTest):
                      for of in ((city, "--epoch", epoch), (self.folder / f"{alone}.pfront",))]
             self.assertEqual(*names)
 
+    def test_transformed_coordinates_get_steps_that_fit(self):
+        """6.5 degrees in 32 bits: steps of 1e-8, 1.1 mm."""
+        rows = [(292000.0, 6833000.0, 50.0), (770000.0, 6277000.0, 60.0)]
+        text = self.folder / "wide.csv"
+        for precision, status in (("0.01", 0), ("0.001", 0), ("0.0002", 1)):
+            text.write_text("x,y,z\n" + "".join("%r,%r,%r\n" % row for row in rows))
+            store = self.folder / "wide.pfront"
+            self.succeed("build", text, "-o", store, "--assume-crs", "EPSG:2154", "--force",
+                         "--precision", precision)
+            out = self.folder / "wide.las"
+            outcome = pointfront("export", store, "-o", out, "--crs", "EPSG:4326", "--force")
+            self.assertEqual(outcome.status, status, outcome)
+            if status == 0:
+                steps = struct.unpack_from("<3d", out.read_bytes(), 131)
+                self.assertEqual(steps[0], 1e-8)
+                self.assertEqual("step of x is 1e-08" in outcome.err, precision == "0.001")
+            else:
+                self.assertIn("1e-08 is the finest step", outcome.err)
+            exact, _ = self.export(store, "wide.xyz", "--crs", "EPSG:4326")
+            if status == 0:
+                self.succeed("build", out, "-o", self.folder / "back.pfront", "--force")
+                back, _ = self.export(self.folder / "back.pfront", "back.xyz")
+                places = [sorted(tuple(map(float, line.split()[:3]))
+                                 for line in path.read_text().splitlines()
+                                 if line[0] in "-0123456789")
+                          for path in (exact, back)]
+                self.assertEqual(len(places[1]), 2)
+                for one, other in zip(*places):
+                    for a, b in zip(one, other):
+                        self.assertAlmostEqual(a, b, delta=0.51e-8)
+
     def test_angles_that_are_no_whole_degrees_get_a_format_of_fine_steps(self):
         text = self.folder / "a.csv"
         for angles, point_format, said in (

@@ -202,6 +202,40 @@ TEST(LASExport, RefusesWhatNoRecordCanHold)
   EXPECT_NE(plan.error().what.find("the extent in x is 100000000"), std::string::npos);
 }
 
+TEST(LASExport, TransformedCoordinatesGetTheFinestStepThatFits)
+{
+  SinkDescription wide = withAttributes({});
+  wide.grid.scale = { 1e-9, 1e-9, 0.01 };
+  wide.bounds.add(glm::dvec3(2.1, 48.0, 0.0));
+  wide.bounds.add(glm::dvec3(8.58, 50.0, 90.0));
+  wide.stepBefore = { 9e-8, 9e-8, 0.0 }; // a centimetre
+  Result<LASExport> plan = LASExport::plan(wide, "out.las");
+  ASSERT_TRUE(plan) << plan.error().what;
+  EXPECT_EQ(plan->grid.scale, glm::dvec3(1e-8, 1e-9, 0.01));
+  EXPECT_TRUE(plan->findings({}).empty());
+
+  wide.stepBefore = { 9e-9, 9e-9, 0.0 }; // a millimetre: 1e-8 degrees are 1.1
+  plan = LASExport::plan(wide, "out.las");
+  ASSERT_TRUE(plan) << plan.error().what;
+  EXPECT_EQ(plan->grid.scale.x, 1e-8);
+  ASSERT_EQ(plan->findings({}).size(), 1u);
+  EXPECT_NE(plan->findings({})[0].find("step of x is 1e-08"), std::string::npos)
+    << plan->findings({})[0];
+
+  wide.stepBefore = { 9e-10, 9e-10, 0.0 };
+  plan = LASExport::plan(wide, "out.las");
+  ASSERT_FALSE(plan);
+  for (const char* const part : { "extent in x is 6.48", "1e-08", "9e-10", "--box", ".csv" })
+  {
+    EXPECT_NE(plan.error().what.find(part), std::string::npos) << plan.error().what;
+  }
+
+  wide.stepBefore = {}; // on its grid as it is: no step of it is given up
+  plan = LASExport::plan(wide, "out.las");
+  ASSERT_FALSE(plan);
+  EXPECT_NE(plan.error().what.find("at a step of 1e-09"), std::string::npos) << plan.error().what;
+}
+
 TEST(LASExport, WithoutPointsIsAWholeFile)
 {
   const SinkDescription description = withAttributes({ classes });

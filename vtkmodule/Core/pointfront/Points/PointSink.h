@@ -22,6 +22,9 @@ struct SinkDescription
   /// The grid that the coordinates live on. A file of integers (LAS) is written on this grid, so
   /// that integers stay the same; a text file prints as many digits as this grid needs.
   QuantisationGrid grid;
+  /// On axes whose coordinates lie on no grid, because they were transformed: the step that they
+  /// had before, in their own units. A file of integers may round by as much; 0: by nothing.
+  glm::dvec3 stepBefore{ 0.0 };
   /// Box of all points that will come, for sinks that must place an integer range; may be empty.
   Bounds bounds;
   std::uint64_t pointCount = 0; ///< how many will come, 0 if not known

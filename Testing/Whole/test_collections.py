@@ -288,6 +288,38 @@ class Collections(ToolTest):
         self.assertEqual(self.collection("list", self.city)["tiles"][-1]["address"],
                          "tiles/tile_0.pfront")
 
+    def test_tiles_without_points_are_left_out(self):
+        """As a build takes nothing of inputs without points."""
+        one = self.tile(0)
+        empty = []
+        for number in range(5):
+            empty.append(self.folder / "tiles" / f"empty_{number}.las")
+            self.succeed("export", one, "-o", self.folder / "empty.las", "--force",
+                         "--box", "-9,-9,-9,-8,-8,-8")
+            empty[-1] = empty[-1].with_suffix(".pfront")
+            self.succeed("build", self.folder / "empty.las", "-o", empty[-1])
+        told = self.succeed("collection", "create", self.city, one, empty[0])
+        self.assertIn(f"1 of 2 tiles has no points and is left out: '{empty[0]}'.", told.err)
+        told = self.succeed("collection", "create", self.city, self.folder / "tiles", "--force")
+        self.assertIn("5 of 6 tiles have no points and are left out: ", told.err)
+        self.assertIn("empty_0.pfront", told.err)
+        self.assertIn("and others.", told.err)
+        self.assertEqual(self.names(), ["tile_0"])
+        two = self.tile(1)
+        told = self.succeed("collection", "add", self.city, empty[1], two)
+        self.assertIn("1 of 2 tiles has no points", told.err)
+        listed = self.succeed("collection", "list", self.city).out
+        self.assertIn("can be undone: add 1 tile\n", listed)
+        self.succeed("collection", "undo", self.city)
+        self.assertEqual(self.names(), ["tile_0"])
+        before = self.city.read_bytes()
+        for verb in (("add", self.city, empty[0]),
+                     ("replace", self.city, empty[0], "--name", "tile_0"),
+                     ("create", self.folder / "none.pfcollection", *empty)):
+            self.assertIn("no points", self.refuse(1, "collection", *verb).err)
+        self.assertEqual(self.city.read_bytes(), before)
+        self.assertFalse((self.folder / "none.pfcollection").exists())
+
     def test_words_that_cannot_be_meant(self):
         store = self.tile(0)
         for arguments in (("create", self.city), ("list", self.city, store), ("mend", self.city),

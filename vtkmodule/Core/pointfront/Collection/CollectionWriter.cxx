@@ -92,6 +92,22 @@ struct Change
   bool undoes = false;
 };
 
+/// In the history of the next state, which will give its next numbers to the tiles that come.
+void remember(const Change& change, std::size_t added, CollectionRecord& next)
+{
+  if (change.undoes)
+  {
+    next.history.pop_back();
+    return;
+  }
+  CollectionChange entry{ change.what, {}, change.removed };
+  for (std::size_t i = 0; i < added; ++i)
+  {
+    entry.added.push_back(next.nextId + static_cast<std::uint32_t>(i));
+  }
+  next.history.push_back(std::move(entry));
+}
+
 Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptions& options)
 {
   const std::string path = begun.path;
@@ -101,43 +117,39 @@ Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptio
     removed.insert(tile.id);
   }
   const std::vector<const TileName*> kept = tilesWithout(removed, *begun.record);
-  Result<std::vector<IncomingTile>> added = openTiles(path, change.requests, options.progress);
-  if (!added)
+  Result<OpenedTiles> taken = openTiles(path, change.requests, options.progress);
+  if (!taken)
   {
-    return added.error();
+    return taken.error();
   }
+  const std::string left = taken->warning();
+  if (!left.empty() && !change.removed.empty())
+  {
+    return makeError(Error::Kind::BadArgument,
+      path + ": " + left +
+        "; a tile that has no points any more is taken out: pointfront "
+        "collection remove");
+  }
+  std::vector<IncomingTile>& added = taken->tiles;
   // Older programs took a file twice: their changes can be undone.
   const Result<std::string> apart =
-    change.undoes ? Result<std::string>("") : filesApart(path, kept, change.requests, *added);
+    change.undoes ? Result<std::string>("") : filesApart(path, kept, change.requests, added);
   if (!apart)
   {
     return apart.error();
   }
-  Result<void> fits = nameApart(path, kept, *added);
+  Result<void> fits = nameApart(path, kept, added);
   const std::string system = kept.empty() ? "" : projectionOf(begun.record->whole);
-  fits = fits ? checkSystems(path, *added, system, options.sameSystem) : fits;
+  fits = fits ? checkSystems(path, added, system, options.sameSystem) : fits;
   if (!fits)
   {
     return fits.error();
   }
-  const std::size_t count = added->size();
-  const std::uint32_t firstId = begun.record->nextId;
+  const std::size_t count = added.size();
   CollectionState state(path, begun.heads, std::move(begun.record));
-  CollectionRecord& next = state.record();
-  if (change.undoes)
-  {
-    next.history.pop_back();
-  }
-  else
-  {
-    CollectionChange entry{ change.what, {}, change.removed };
-    for (std::size_t i = 0; i < count; ++i)
-    {
-      entry.added.push_back(firstId + static_cast<std::uint32_t>(i));
-    }
-    next.history.push_back(std::move(entry));
-  }
-  if (Result<void> done = state.change(removed, std::move(*added), options); !done)
+  change.what = left.empty() ? change.what : counted("add", count);
+  remember(change, count, state.record());
+  if (Result<void> done = state.change(removed, std::move(added), options); !done)
   {
     return done.error();
   }
@@ -147,6 +159,7 @@ Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptio
     report->added = count;
     report->removed = removed.size();
     apart->empty() ? void() : report->warnings.push_back(*apart);
+    left.empty() ? void() : report->warnings.push_back(left + ".");
   }
   return report;
 }
@@ -178,20 +191,22 @@ Result<CollectionReport> createCollection(
   {
     return file.error();
   }
-  Result<std::vector<IncomingTile>> opened = openTiles(path, tiles, options.progress);
-  if (!opened)
+  Result<OpenedTiles> taken = openTiles(path, tiles, options.progress);
+  if (!taken)
   {
-    return opened.error();
+    return taken.error();
   }
-  Result<void> fits = nameApart(path, {}, *opened);
-  fits = fits ? checkSystems(path, *opened, "", options.sameSystem) : fits;
+  std::vector<IncomingTile>& opened = taken->tiles;
+  Result<void> fits = nameApart(path, {}, opened);
+  fits = fits ? checkSystems(path, opened, "", options.sameSystem) : fits;
   if (!fits)
   {
     return fits.error();
   }
-  const std::size_t count = opened->size();
+  const std::size_t count = opened.size();
+  const std::string left = taken->warning();
   CollectionState state(path, nullptr, std::nullopt);
-  if (Result<void> done = state.change({}, std::move(*opened), options); !done)
+  if (Result<void> done = state.change({}, std::move(opened), options); !done)
   {
     return done.error();
   }
@@ -200,6 +215,7 @@ Result<CollectionReport> createCollection(
   {
     report->added = count;
     apart->empty() ? void() : report->warnings.push_back(*apart);
+    left.empty() ? void() : report->warnings.push_back(left + ".");
   }
   return report;
 }
@@ -357,7 +373,7 @@ Result<CollectionReport> compactCollection(
   {
     requests.push_back(again(path, tile.is));
   }
-  Result<std::vector<IncomingTile>> opened = openTiles(path, requests, options.progress);
+  Result<OpenedTiles> opened = openTiles(path, requests, options.progress);
   if (!opened)
   {
     return opened.error();
@@ -365,7 +381,7 @@ Result<CollectionReport> compactCollection(
   CollectionState state(path, nullptr, std::nullopt);
   state.record().state = begun->record->state;
   state.record().nextId = begun->record->nextId;
-  if (Result<void> done = state.change({}, std::move(*opened), options); !done)
+  if (Result<void> done = state.change({}, std::move(opened->tiles), options); !done)
   {
     return done.error();
   }

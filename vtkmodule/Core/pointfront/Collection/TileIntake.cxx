@@ -43,8 +43,15 @@ std::string refusalOf(const StoredCloud& cloud)
     return "has representatives (--refinement replace), which a collection does not take; build it "
            "with --refinement add";
   }
-  return is.pointCount == 0 || cloud.hierarchy()->roots().empty() ? "has no points" : "";
+  return "";
 }
+
+bool isEmpty(const StoredCloud& cloud)
+{
+  return cloud.description().pointCount == 0 || cloud.hierarchy()->roots().empty();
+}
+
+constexpr std::size_t mostNamed = 3;
 
 Result<IncomingTile> openTile(const std::string& collection, const TileRequest& request)
 {
@@ -166,7 +173,7 @@ Result<void> checkAddresses(const std::string& collection, const std::vector<Til
   return {};
 }
 
-Result<std::vector<IncomingTile>> openTiles(const std::string& collection,
+Result<OpenedTiles> openTiles(const std::string& collection,
   const std::vector<TileRequest>& requests, const ProgressFunction& progress)
 {
   raiseOpenFiles(requests.size());
@@ -184,16 +191,20 @@ Result<std::vector<IncomingTile>> openTiles(const std::string& collection,
         static_cast<void>(display.opened());
       }
     });
-  constexpr std::size_t mostNamed = 3;
-  std::vector<IncomingTile> tiles;
+  OpenedTiles all;
   std::string faults;
   std::size_t faulty = 0;
   const Error* first = nullptr;
-  for (Result<IncomingTile>& tile : opened)
+  for (std::size_t i = 0; i < opened.size(); ++i)
   {
-    if (tile)
+    Result<IncomingTile>& tile = opened[i];
+    if (tile && isEmpty(*tile->cloud))
     {
-      tiles.push_back(std::move(*tile));
+      all.empty.push_back(publicForm(requests[i].path));
+    }
+    else if (tile)
+    {
+      all.tiles.push_back(std::move(*tile));
     }
     else if (tile.error().kind == Error::Kind::Cancelled)
     {
@@ -211,7 +222,27 @@ Result<std::vector<IncomingTile>> openTiles(const std::string& collection,
       collection + ": " + std::to_string(faulty) + " of " + std::to_string(requests.size()) +
         " tiles cannot be taken in: " + faults + (faulty > mostNamed ? "; and others" : ""));
   }
-  return tiles;
+  if (all.tiles.empty() && !all.empty.empty())
+  {
+    return makeError(Error::Kind::BadArgument, collection + ": " + all.warning());
+  }
+  return all;
+}
+
+std::string OpenedTiles::warning() const
+{
+  std::string names;
+  for (std::size_t i = 0; i < std::min(empty.size(), mostNamed); ++i)
+  {
+    names += (i == 0 ? "'" : ", '") + empty[i] + "'";
+  }
+  return empty.empty()
+    ? std::string()
+    : std::to_string(empty.size()) + " of " + std::to_string(empty.size() + tiles.size()) +
+      (tiles.size() + empty.size() == 1 ? " tile" : " tiles") +
+      (empty.size() == 1 ? " has no points and is left out: "
+                         : " have no points and are left out: ") +
+      names + (empty.size() > mostNamed ? " and others" : "");
 }
 
 Result<void> checkSystems(const std::string& collection, const std::vector<IncomingTile>& tiles,

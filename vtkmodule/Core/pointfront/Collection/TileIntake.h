@@ -37,6 +37,16 @@ struct IncomingTile
   CollectedTile facts(std::vector<StoreDescription>& kinds) const;
 };
 
+/// Open tiles, and those that have no points.
+struct OpenedTiles
+{
+  std::vector<IncomingTile> tiles;
+  std::vector<std::string> empty; ///< their paths, which are in no tile of the collection
+
+  /// A sentence about those without points; "": there are none.
+  std::string warning() const;
+};
+
 /// How a collection names a path: relative to its folder; an address without what is secret in it.
 std::string relativeAddress(const std::string& collection, const std::string& path);
 /// The name of a tile by its file: "a/north_17.copc.laz" is "north_17".
@@ -53,8 +63,8 @@ Result<void> checkAddresses(
 
 /// Opens tiles beside each other.
 /// Errors  those that cannot be opened, the first three by name; BadArgument: a collection, a
-///         preview, a tile without points or with representatives.
-Result<std::vector<IncomingTile>> openTiles(const std::string& collection,
+///         preview, a tile with representatives, and tiles of which none has points.
+Result<OpenedTiles> openTiles(const std::string& collection,
   const std::vector<TileRequest>& requests, const ProgressFunction& progress);
 
 /// Errors  BadArgument: tiles that name different systems, with two of them. `known` is the system

@@ -1,16 +1,16 @@
 #include "WindowPicture.h"
 
-#include "WholeFile.h"
+#include "PNGWriter.h"
 
 #include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
-#include <vtkPNGWriter.h>
 #include <vtkRenderWindow.h>
-#include <vtkUnsignedCharArray.h>
 #include <vtkWindowToImageFilter.h>
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 
 namespace pointfront
 {
@@ -22,13 +22,23 @@ Result<void> writeWindowPicture(vtkRenderWindow* window, const std::string& path
   image->SetInputBufferTypeToRGB();
   image->ReadFrontBufferOff();
   image->ShouldRerenderOff();
-  vtkNew<vtkPNGWriter> png;
-  png->SetInputConnection(image->GetOutputPort());
-  png->WriteToMemoryOn();
-  png->Write();
-  vtkUnsignedCharArray* const bytes = png->GetResult();
-  return writeWholeFile(
-    path, bytes->GetPointer(0), static_cast<std::size_t>(bytes->GetNumberOfValues()));
+  image->Update();
+  vtkImageData* const pixels = image->GetOutput();
+  int size[3];
+  pixels->GetDimensions(size);
+  const PNGWriter::Size rows{ static_cast<std::uint32_t>(size[0]),
+    static_cast<std::uint32_t>(size[1]) };
+  const Result<std::unique_ptr<PNGWriter>> png =
+    PNGWriter::create(path, rows, PNGWriter::Pixels::RGB8);
+  if (!png)
+  {
+    return png.error();
+  }
+  const auto* const top =
+    static_cast<const std::uint8_t*>(pixels->GetScalarPointer(0, size[1] - 1, 0));
+  const Result<void> written =
+    (*png)->append(top, rows.height, -3 * static_cast<std::ptrdiff_t>(size[0]));
+  return written ? (*png)->finish() : written;
 }
 
 bool showsPoints(vtkRenderWindow* window)

@@ -1,5 +1,5 @@
 from os import PathLike
-from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Mapping, Optional, Sequence, Tuple, Union
+from typing import Any, Callable, Dict, Iterable, Iterator, List, Literal, Mapping, Optional, Protocol, Sequence, Tuple, Union
 
 import numpy
 
@@ -17,6 +17,12 @@ _Point = Tuple[float, float, float]
 _Box = Union[Tuple[_Point, _Point], Sequence[float]]
 _Progress = Union[None, bool, Callable[[str, float], Optional[bool]]]
 _Classes = Union[None, int, Iterable[int]]
+
+class _Columns(Protocol):
+    """An opened .npz file, a data frame."""
+
+    def keys(self) -> Iterable[str]: ...
+    def __getitem__(self, name: str, /) -> Any: ...
 
 __version__: str
 VTK_PACKAGE: str
@@ -36,7 +42,7 @@ class BuildReport:
     warnings: List[str]
 
 def build(
-    inputs: Union[_Path, Iterable[_Path], Mapping[str, Any], numpy.ndarray],
+    inputs: Union[_Path, Iterable[_Path], Mapping[str, Any], _Columns, numpy.ndarray],
     output: _Path,
     *,
     structure: str = ...,
@@ -125,11 +131,14 @@ class Cloud:
         *,
         box: Optional[_Box] = ...,
         sphere: Optional[Tuple[_Point, float]] = ...,
+        area: Optional[str] = ...,
         classes: _Classes = ...,
         where: Optional[str] = ...,
         spacing: Optional[float] = ...,
         crs: Optional[str] = ...,
         overwrite: bool = ...,
+        progress: _Progress = ...,
+        line_distance: float = ...,
         **options: Any,
     ) -> int: ...
     def to_pyvista(self, **query: Any) -> Any: ...

@@ -1,21 +1,28 @@
 """NumPy arrays on their way into a store, and points of a store in chunks."""
 
+import collections.abc
+
 import numpy
 
 _OWN = ("position", "id")  # Cloud.points adds them: they are no attributes
 _MOST_COMPONENTS = 16
 
 
-def is_table(inputs):
-    """Whether these are points, and not names of files."""
-    fields = getattr(getattr(inputs, "dtype", None), "names", None)
-    return isinstance(inputs, dict) or fields is not None
-
-
-def as_dictionary(inputs):
-    """{name: array} of a dictionary or of an array with fields."""
-    return inputs if isinstance(inputs, dict) else {name: inputs[name]
-                                                    for name in inputs.dtype.names}
+def table_of(inputs):
+    """{name: array} of points: a mapping of that, anything with keys() and items by key as an
+    opened .npz file and a data frame are, or an array with fields. None: names of files.
+    """
+    names = None
+    if isinstance(inputs, numpy.ndarray):
+        names = inputs.dtype.names
+        if names is None and inputs.dtype.kind in "iufcb":
+            raise TypeError(
+                f"an array of the shape {inputs.shape} is no points: give it a name, as in "
+                f"{{'position': array}} of n by 3, with other attributes beside it")
+    elif isinstance(inputs, collections.abc.Mapping) or (
+            hasattr(inputs, "keys") and hasattr(inputs, "__getitem__")):
+        names = inputs.keys()
+    return None if names is None else {name: inputs[name] for name in names}
 
 
 def _plain(name, values, kind=None):

@@ -123,8 +123,9 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
 
     inputs      a path, or several: LAS, LAZ, PLY, PCD, text, ept.json, .pfront, .pfindex, folders
                 of them; or points: {"position": n by 3, "intensity": n, ...}, as Cloud.points()
-                gives them, an array with such fields, or "x", "y", "z" for "position". Types are
-                kept; "id" is not an attribute
+                gives them, any mapping, .npz file or data frame of that, or an array with such
+                fields; "x", "y", "z" may stand for "position". Types are kept; "id" is not an
+                attribute
     output      path of the store (.pfront); overwrite=True replaces one that is there
     structure   "octree" or "kdtree"
     refinement  "add" (inner nodes hold a subset) or "replace" (mean points)
@@ -159,8 +160,9 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     if attributes is not None:
         request["attributes"] = _texts(attributes)
     columns = None
-    if _arrays.is_table(inputs):
-        columns = _arrays.columns_of(_arrays.as_dictionary(inputs))
+    table = _arrays.table_of(inputs)
+    if table is not None:
+        columns = _arrays.columns_of(table)
     else:
         request["files"] = _paths(inputs)
         if not request["files"]:

@@ -3,6 +3,7 @@
 import html
 import operator
 import os
+import tempfile
 
 from . import _arrays, _far, _host, _kernel, _pictures
 from ._errors import PointFrontError, warn
@@ -192,23 +193,34 @@ class Cloud:
 
         return _arrays.joined(parts(), size)
 
-    def export(self, path, *, box=None, sphere=None, classes=None, where=None, spacing=None,
-               crs=None, overwrite=False, **options):
+    def export(self, path, *, box=None, sphere=None, area=None, classes=None, where=None,
+               spacing=None, crs=None, overwrite=False, progress=None, line_distance=0.0,
+               **options):
         """Write points to a LAS, LAZ, PLY, PCD, XYZ or CSV file; its name says which.
 
-        box, sphere, classes, where, spacing   as for extract()
+        box, sphere, area, classes, where, spacing, progress   as for extract()
+        line_distance   of lines in `area`
         crs        to transform into: "EPSG:25832", or a file of well-known text
         overwrite  replace a file that is there
-        options    others of `pointfront export` in snake case: color_depth=16, polygon="a.geojson"
+        options    others of `pointfront export` in snake case: color_depth=16, polygon="a.geojson".
+                   Not `attributes`: the file has all that the cloud stores
 
         Returns how many points were written. What was wrong and survived is a PointFrontWarning.
         Raises PointFrontError, and ValueError and TypeError as points() does; KeyboardInterrupt,
         with nothing left behind unless the file was complete by then.
         """
         self._opened()
-        conditions = Conditions(self, box, sphere, None, classes, where, spacing, None)
+        if "attributes" in options:
+            raise TypeError("export() takes no `attributes`: a file has all that the cloud stores; "
+                            "points(attributes=...) reads some, build(attributes=...) stores some")
+        conditions = Conditions(self, box, sphere, area, classes, where, spacing, None)
         chosen = {**conditions.options(), "crs": crs, "force": overwrite, **options}
-        return _pictures.export(self._path, os.fsdecode(path), chosen, self._warnings)
+        with tempfile.TemporaryDirectory(prefix="pointfront-") as folder:
+            for name, value in conditions.area_options(folder, line_distance).items():
+                if name in options:
+                    raise TypeError(f"export() takes `area` or `{name}`, not both")
+                chosen[name] = value
+            return _pictures.export(self._path, os.fsdecode(path), chosen, self._warnings, progress)
 
     def to_pyvista(self, **query):
         """Points of a region as pyvista.PolyData, of whichever VTK PyVista runs on; `query` as for
@@ -247,7 +259,7 @@ class Cloud:
                    background=None, **options):
         """A picture of the cloud, drawn in software: no display, no OpenGL, the same bits anywhere.
 
-        path        a PNG file to write; None: the Picture only
+        path        a file to write, whose name ends in .png; None: the Picture only
         size        (width, height) in pixels
         color_by    an attribute, "rgb", "elevation" ...
         view        "iso", "top", "front", "back", "left" or "right"
@@ -258,12 +270,15 @@ class Cloud:
         where       a condition on attributes
         error       projected point spacing to refine to, in pixels
         background  (red, green, blue), 0 to 255
-        options     others of `pointfront render` in snake case: edl=True, point_size=3 ...
+        options     others of `pointfront render` in snake case: edl=True, point_size=3 ... There
+                    is no `progress`
 
         Returns a Picture: `.pixels` are height by width by 3, uint8. A picture that is coarser than
         `error` asks is a PointFrontWarning. Raises PointFrontError.
         """
         self._opened()
+        if "progress" in options:
+            raise TypeError("screenshot() takes no `progress`: it does not know how far it is")
         options.update(color_by=color_by, view=view, camera=camera, technique=technique,
                        style=style, classes=class_numbers(classes) or None, where=where,
                        error=error, background=background)

@@ -68,11 +68,11 @@ def _answer(address):
     finally:
         _library.pointfrontFree(address)
     if isinstance(answer, dict) and "error" in answer:
-        raise _Stopped() if answer["cancelled"] else PointFrontError(answer["error"])
+        raise Stopped() if answer["cancelled"] else PointFrontError(answer["error"])
     return answer
 
 
-class _Stopped(PointFrontError):
+class Stopped(PointFrontError):
     """The kernel ended because it was asked to."""
 
 
@@ -149,10 +149,10 @@ def call(function, progress, stopped):
     with receiving(progress) as receive:
         try:
             if ends(receive("", 0.0)):
-                raise _Stopped()
+                raise Stopped()
             work = _Call(function)
             answer = work.run(receive)
-        except _Stopped:
+        except Stopped:
             raise PointFrontError(stopped) from None
         receive(work.phase, 1.0)
     return answer

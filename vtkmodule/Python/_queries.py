@@ -3,6 +3,7 @@
 import ctypes
 import math
 import operator
+import pathlib
 import sys
 
 from . import _kernel
@@ -147,6 +148,20 @@ class Conditions:
         return {"box": None if self.box is None else [finite(end) for end in self.box],
                 "sphere": self.sphere, "classes": self.classes or None, "where": self.where,
                 "spacing": None if self.spacing is None else finite(self.spacing)}
+
+    def area_options(self, folder, line_distance):
+        """Those of `pointfront export` for the area, which it reads from a file in `folder`."""
+        if self.area is None:
+            if line_distance:
+                raise ValueError("line_distance is of lines in `area`, and there is none")
+            return {}
+        file = pathlib.Path(folder) / "area"
+        file.write_text(self.area)
+        if "LINESTRING" not in self.area.upper():
+            return {"polygon": file}
+        if not line_distance > 0.0:
+            raise ValueError("lines in `area` want a line_distance above 0")
+        return {"corridor": file, "within": finite(float(line_distance))}
 
     def arrays(self, store, progress=None, *, line_distance=0.0, maximum_number_of_points=_MOST,
                memory_limit=0, colors_as_stored=True, piece=0, pieces=1):

@@ -129,6 +129,10 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
           "POINTFRONT_SHARED_DATA=${POINTFRONT_SHARED_DATA}"
           "${Python3_EXECUTABLE}" -B "${from}/Testing/test_${test}.py")
     endforeach ()
+    pointfront_add_display_test(NAME Python.Files
+      COMMAND "${CMAKE_COMMAND}" -E env
+        "PYTHONPATH=${CMAKE_BINARY_DIR}/${pointfront_python_folder}"
+        "${Python3_EXECUTABLE}" -B "${from}/Testing/test_files.py")
   endif ()
 endif ()
 

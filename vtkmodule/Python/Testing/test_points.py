@@ -1,5 +1,6 @@
-"""Points as NumPy arrays: what is stored, in each type; conditions; thinning; forks."""
+"""Points as NumPy arrays: what is given and stored, in each type; conditions; thinning; forks."""
 
+import collections
 import importlib
 import multiprocessing
 import os
@@ -8,6 +9,7 @@ import shutil
 import struct
 import tempfile
 import time
+import types
 import unittest
 import warnings
 
@@ -46,6 +48,40 @@ class Points(unittest.TestCase):
             cls.stores[refinement] = cls.folder / f"{refinement}.pfront"
             pointfront.build(CLOUD, cls.stores[refinement], preview=False, node_points=1000,
                              refinement=refinement)
+
+    def test_anything_with_names_is_points(self):
+        """Mappings, .npz files and what is like a data frame: as the dictionary of their items."""
+        class Frame:
+            def __init__(self, columns):
+                self._columns = columns
+
+            def keys(self):
+                return iter(self._columns)
+
+            def __getitem__(self, name):
+                return self._columns[name]
+
+        plain = {"x": numpy.arange(5.0), "y": numpy.arange(5.0) * 2, "z": numpy.zeros(5),
+                 "rank": numpy.arange(5, dtype="i4")}
+        numpy.savez(self.folder / "points.npz", **plain)
+        with numpy.load(self.folder / "points.npz") as file:
+            for points in (types.MappingProxyType(plain), collections.UserDict(plain), file,
+                           Frame(plain)):
+                with self.subTest(kind=type(points).__name__):
+                    store = self.folder / "named.pfront"
+                    pointfront.build(points, store, overwrite=True, precision=1, preview=False)
+                    with pointfront.open(store) as cloud:
+                        back = cloud.points()
+                    self.assertEqual(sorted(back["rank"]), [0, 1, 2, 3, 4])
+                    self.assertEqual(list(back["position"][:, 1]), list(back["rank"] * 2.0))
+        for array in (numpy.zeros((3, 3)), numpy.zeros((3, 3), "i4")):
+            with self.assertRaisesRegex(TypeError, r"\(3, 3\).*{'position': array}"):
+                pointfront.build(array, self.folder / "none.pfront")
+        names = numpy.array([str(CLOUD)])
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            report = pointfront.build(names, self.folder / "names.pfront", preview=False)
+        self.assertEqual(report.points_stored, 174151)
 
     def test_classes_of_any_integers_are_classes(self):
         xyz = numpy.arange(12.0).reshape(4, 3)

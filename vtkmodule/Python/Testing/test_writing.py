@@ -322,7 +322,7 @@ class Writing(unittest.TestCase):
                 cloud.export(self.folder / "tiles.las")
 
     def test_a_picture_says_what_it_lacks(self):
-        with self.assertWarnsRegex(pointfront.PointFrontWarning, "coarser.*point-budget") as said:
+        with self.assertWarnsRegex(pointfront.PointFrontWarning, "coarser.*point_budget") as said:
             self.cloud.screenshot(size=(64, 48), error=0.1, point_budget=1000)
         self.assertEqual(said.filename, __file__)
 

@@ -161,6 +161,31 @@ std::string Program::usageText(const std::string& command, const CLI::ParseError
   return text.size() > longest ? text.substr(0, longest) + "..." : text;
 }
 
+/// CLI11 takes the next word for a value, whatever it is: "--stats --edl" would write a file that
+/// is called --edl, and draw without. Empty: no option is taken for a value.
+std::string Program::optionAsValue(const CLI::App& command) const
+{
+  for (const CLI::Option* option : command.get_options())
+  {
+    for (const std::string& value : option->results())
+    {
+      if (value.size() > 1 && value[0] == '-' && command.get_option_no_throw(value) != nullptr)
+      {
+        return option->get_name() + " lacks its value: behind it stands " + value +
+          ", which is an option (a file of that name is ./" + value + ")";
+      }
+    }
+  }
+  for (const CLI::App* below : command.get_subcommands())
+  {
+    if (std::string told = optionAsValue(*below); !told.empty())
+    {
+      return told;
+    }
+  }
+  return {};
+}
+
 int Program::run(int argc, char** words)
 {
   // No command sees what is secret in an address, so that none can tell it.
@@ -185,6 +210,10 @@ int Program::run(int argc, char** words)
   try
   {
     app_.parse(argc, argv);
+    if (const std::string told = optionAsValue(app_); !told.empty())
+    {
+      throw CLI::ValidationError(told);
+    }
   }
   catch (const CLI::Success& help) // --help, --version
   {
@@ -193,7 +222,11 @@ int Program::run(int argc, char** words)
   catch (const CLI::ParseError& wrong)
   {
     const std::string command = commandNamed(argc, argv);
-    complain(command, command.empty() ? commandsText(argc, argv) : usageText(command, wrong));
+    const std::string told = optionAsValue(app_);
+    complain(command,
+      command.empty()  ? commandsText(argc, argv)
+        : told.empty() ? usageText(command, wrong)
+                       : told);
     return ExitStatus::WrongUsage;
   }
   for (const auto& command : commands_)

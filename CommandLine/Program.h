@@ -24,6 +24,7 @@ private:
   std::string commandsText(int argc, char** argv) const;
   /// Says why the command line is wrong, and which option may have been meant.
   std::string usageText(const std::string& command, const CLI::ParseError& wrong) const;
+  std::string optionAsValue(const CLI::App& command) const;
 
   CLI::App app_;
   std::vector<std::unique_ptr<Command>> commands_;

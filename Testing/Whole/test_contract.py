@@ -148,6 +148,17 @@ class Usage(ToolTest):
             self.refuse(2, "export", "store.pfront", "-o", self.folder / name)
         self.assertEqual(self.entries(), [])
 
+    def test_an_option_is_no_value_of_another(self):
+        """"--stats --edl" wrote a file that was called --edl, and drew without."""
+        store = self.build(SMALL)
+        for words in (("render", store, "-o", self.folder / "a.png", "--stats", "--edl"),
+                      ("render", store, "--stats", "-o", self.folder / "a.png"),
+                      ("export", store, "-o", "--force"),
+                      ("collection", "list", "--json", "--epoch", "--json", store)):
+            told = self.refuse(2, *words)
+            self.assertIn("lacks its value", told.err, words)
+        self.assertEqual([path.name for path in self.folder.glob("-*")], [])
+
     def test_an_empty_choice_is_neither_everything_nor_nothing(self):
         store = self.build(SMALL)
         export = ("export", store, "-o", self.folder / "x.las")

@@ -140,6 +140,10 @@ std::string Program::commandsText(int argc, char** argv) const
 std::string Program::usageText(const std::string& command, const CLI::ParseError& wrong) const
 {
   constexpr std::size_t longest = 500;
+  if (std::string told = optionAsValue(app_); !told.empty())
+  {
+    return told;
+  }
   std::string text = wrong.what();
   std::vector<std::string> known;
   const CLI::App* const app = app_.get_subcommand(command);
@@ -222,11 +226,7 @@ int Program::run(int argc, char** words)
   catch (const CLI::ParseError& wrong)
   {
     const std::string command = commandNamed(argc, argv);
-    const std::string told = optionAsValue(app_);
-    complain(command,
-      command.empty()  ? commandsText(argc, argv)
-        : told.empty() ? usageText(command, wrong)
-                       : told);
+    complain(command, command.empty() ? commandsText(argc, argv) : usageText(command, wrong));
     return ExitStatus::WrongUsage;
   }
   for (const auto& command : commands_)

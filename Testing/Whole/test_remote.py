@@ -260,15 +260,13 @@ class Cache(RemoteTest):
 
     def test_a_file_that_its_server_promises_is_not_asked_about(self):
         address = self.address("immutable")
-        first, _ = self.draw(address)
-        again = []
+        first, again = self.draw(address)[0], []
         for _ in range(3):  # the end of a program may cut off an answer that nothing waits for
             before = list(self.server.requests)
             second, facts = self.draw(address)
             after = self.server.requests[len(before):]
             again.append(asked_again(before, after))
-            self.assertEqual(facts["requests"], len(after))
-            self.assertTrue((first == second).all())
+            self.assertEqual((facts["requests"], (first == second).all()), (len(after), True))
         self.assertEqual(min(again), 0)
         self.assertEqual(self.settled(address)["requests"], 0)
         self.assertEqual(self.points(address, environment=self.with_cache), self.expected)
@@ -292,9 +290,8 @@ class Cache(RemoteTest):
         self.assertEqual(facts["requests"], 0)
         self.assertEqual(self.server.requests, [])
         self.assertTrue((online == offline).all())
-        refused = self.refuse(1, "info", self.address("weak"), "--offline",
-                              environment=self.with_cache)
-        self.assertIn("offline", refused.err)
+        words = ("info", self.address("weak"), "--offline")
+        self.assertIn("offline", self.refuse(1, *words, environment=self.with_cache).err)
 
     def test_a_file_that_was_replaced_is_fetched_again(self):
         self.points(self.address(""), environment=self.with_cache)

@@ -18,7 +18,7 @@ find_program(POINTFRONT_XVFB_RUN xvfb-run)
 include(GoogleTest)
 
 # Where tests write: a folder for each build tree, since the same tests of several trees run at one
-# time, and one for each program that draws.
+# time, and one for each program that draws. Below it each process makes its own: OwnFolder.cxx.
 set(pointfront_test_files "${CMAKE_BINARY_DIR}/Testing/Files")
 file(MAKE_DIRECTORY "${pointfront_test_files}")
 
@@ -156,6 +156,7 @@ endfunction ()
 # every access.)
 function (pointfront_test_program executable)
   pointfront_compile_by_folder(${executable} TESTS)
+  target_sources(${executable} PRIVATE "${CMAKE_SOURCE_DIR}/Testing/Support/OwnFolder.cxx")
   if (POINTFRONT_SANITIZE MATCHES "address")
     get_target_property(options ${executable} COMPILE_OPTIONS)
     list(REMOVE_ITEM options ${pointfront_sanitizing})

@@ -24,7 +24,10 @@ class Promise(ToolTest):
     def keep(self, source, *words):
         store = self.folder / "kept.pfront"
         self.succeed("build", source, "-o", store, *words)
-        judge = promise.Judge(TOOL, store, self.folder)
+        self.keeps(store)
+
+    def keeps(self, cloud):
+        judge = promise.Judge(TOOL, cloud, self.folder)
         random = numpy.random.default_rng(SEED)
         for camera, error_px, measures in promise.views(
                 judge.judge, judge.random_view, random, VIEWS):
@@ -55,14 +58,29 @@ class Promise(ToolTest):
         and 94 % of what their splats cover."""
         random = numpy.random.default_rng(SEED)
         for points in (15000, 60000):
-            down = random.uniform(numpy.radians(1), numpy.radians(60), points)
-            around = random.uniform(0, 2 * numpy.pi, points)
-            away = 1.7 / numpy.tan(down)
-            text = self.folder / "scan.xyz"
-            numpy.savetxt(text, numpy.column_stack(
-                [away * numpy.cos(around), away * numpy.sin(around), numpy.zeros(points)]), "%.3f")
             with self.subTest(points=points):
-                self.keep(text, "--normals", "pca", "--force")
+                self.keep(self.tripod(random, points), "--normals", "pca", "--force")
+
+    def tripod(self, random, points):
+        down = random.uniform(numpy.radians(1), numpy.radians(60), points)
+        around = random.uniform(0, 2 * numpy.pi, points)
+        away = 1.7 / numpy.tan(down)
+        text = self.folder / "scan.xyz"
+        numpy.savetxt(text, numpy.column_stack(
+            [away * numpy.cos(around), away * numpy.sin(around), numpy.zeros(points)]), "%.3f")
+        return text
+
+    def test_an_index_of_a_scan_from_a_tripod(self):
+        """Its nodes draw one point of so many. While their spacing was the mean of their square,
+        3 of these 8 views lacked points or had holes: up to 3.1 % of one."""
+        store, las = self.folder / "scan.pfront", self.folder / "scan.las"
+        self.succeed("build", self.tripod(numpy.random.default_rng(SEED), 200000), "-o", store)
+        self.succeed("export", store, "-o", las)
+        self.keeps(self.index(las))
+
+    def index(self, las):
+        self.succeed("index", las)
+        return las.with_name(las.name + ".pfindex")
 
     def test_no_more_than_the_error_that_was_asked_is_kept_quiet(self):
         """A complete picture has the error, or says what kept it from it. Where the detail is one

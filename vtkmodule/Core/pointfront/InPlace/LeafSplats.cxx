@@ -79,6 +79,11 @@ double LeafSplats::pointSpacing(NodeIndex node) const
 
 double LeafSplats::spacing(NodeIndex node) const
 {
+  return sparse_.ratio(node) * meanSpacing(node);
+}
+
+double LeafSplats::meanSpacing(NodeIndex node) const
+{
   const double copies = points_ > 0 ? double(points_) / double(places_) : 1.0;
   const double every = std::ldexp(1.0, tree_.nodes()[node].logStep); // a point drawn of so many
   return pointSpacing(node) * std::sqrt(std::max(1.0, copies / every));
@@ -148,6 +153,19 @@ double LeafSplats::nearby(const std::vector<double>& ofMeasured, NodeIndex leaf)
   return count > 0 ? sum / count : 0.0;
 }
 
+SparseLeaves LeafSplats::sparseLeaves() const
+{
+  std::vector<SparseLeaves::Square> squares;
+  squares.reserve(tree_.nodes().size());
+  for (NodeIndex i = 0; i < tree_.nodes().size(); ++i)
+  {
+    const QuadNode& node = tree_.nodes()[i];
+    squares.push_back({ node.parent, node.sliced || (node.leaf() && !isSlice(i)), node.points,
+      std::sqrt(nodeLifts_[i] * node.area / double(node.points)) });
+  }
+  return SparseLeaves(squares);
+}
+
 void LeafSplats::finish()
 {
   const std::vector<QuadNode>& nodes = tree_.nodes();
@@ -167,6 +185,7 @@ void LeafSplats::finish()
                                     : 0.0;
     nodeLifts_[i] = std::max(1.0, lift);
   }
+  sparse_ = sparseLeaves();
   for (std::size_t m = 0; m < measured_.size(); ++m)
   {
     const double spacing = pointSpacing(measured_[m]);
@@ -179,7 +198,7 @@ void LeafSplats::fill(std::vector<Node>& nodes) const
   for (NodeIndex i = 0; i < nodes.size(); ++i)
   {
     nodes[i].splatRadius = nodes[i].leaf() ? toFloat(nearby(radii_, i) * pointSpacing(i))
-                                           : toFloat(randomRatio * spacing(i));
+                                           : toFloat(randomRatio * meanSpacing(i));
   }
 }
 

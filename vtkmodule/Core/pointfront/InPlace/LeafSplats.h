@@ -6,6 +6,7 @@
 #include "pointfront/Store/Hierarchy.h"
 #include "pointfront/Trees/NeighbourDistances.h"
 #include "pointfront/Trees/NodeSplat.h"
+#include "pointfront/Trees/SparseLeaves.h"
 
 #include <cstddef>
 #include <cstdint>
@@ -37,12 +38,16 @@ public:
   /// Called after the lists of all nodes, before what follows.
   void finish();
   void fill(std::vector<Node>& nodes) const;
-  /// World units between neighbours of what is drawn of a node and those above it.
+  /// World units between neighbours of what is drawn of a node and those above it, where they are
+  /// sparse.
   double spacing(NodeIndex node) const;
 
 private:
   /// As if each point had a place of its own.
   double pointSpacing(NodeIndex node) const;
+  /// World units between neighbours of what is drawn of a node and those above it.
+  double meanSpacing(NodeIndex node) const;
+  SparseLeaves sparseLeaves() const;
   /// The mean of the measured leaves before and behind a leaf, its own if it is measured; 0: they
   /// have none.
   double nearby(const std::vector<double>& ofMeasured, NodeIndex leaf) const;
@@ -60,6 +65,7 @@ private:
   std::vector<double> radii_; ///< theirs, then their ratios to pointSpacing(); 0: none was found
   std::vector<double> lifts_; ///< theirs: surface in their squares, of the squares' area
   std::vector<double> nodeLifts_; ///< that of each node
+  SparseLeaves sparse_{ {} };
   std::uint64_t points_ = 0; ///< theirs
   std::uint64_t places_ = 0;
 };

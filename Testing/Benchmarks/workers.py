@@ -3,7 +3,7 @@
 
 usage: Testing/Benchmarks/workers.py TOOL --package DIR [--inputs N] [--points N] [--workers N]
        [--tile METRES] [--memory SIZE] [--decode once|twice] [--several-only] [--kill SECONDS]
-       [--work DIR] [-- OPTIONS OF THE BUILD]
+       [--potree PotreeConverter] [--work DIR] [-- OPTIONS OF THE BUILD]
 
 DIR is the folder that the Python package `pointfront` of the same build lies in. Generates INPUTS
 LAZ files of POINTS each that lie side by side, eight landscapes in turn. Builds one store with as
@@ -11,6 +11,7 @@ many threads as there are workers, then tiles by `cluster build` with one worker
 of one thread each. Prints seconds on the clock, the ratios, which mean something on a machine that
 does nothing else, and the largest resident memory of any process (Dask's included) beside --memory.
 With --several-only, builds the tiles by several workers alone. --decode is that of `cluster build`.
+With --potree, PotreeConverter 2 converts the same files, by Poisson sampling, on all processors.
 
 With --kill, one more build by several workers loses a worker each SECONDS, and once the command
 itself with its scheduler; it is given again until it ends, and its tiles must have the same bytes.
@@ -171,6 +172,7 @@ def main():
     parser.add_argument("--decode", choices=("once", "twice"), default="once")
     parser.add_argument("--several-only", action="store_true")
     parser.add_argument("--kill", type=float)
+    parser.add_argument("--potree", type=pathlib.Path)
     parser.add_argument("--work", type=pathlib.Path)
     parser.add_argument("options", nargs="*")
     args = parser.parse_args()
@@ -198,6 +200,9 @@ def main():
                  Measured(cluster(land.name, args.workers), environment))
         else:
             compare(work, args, sources, common, told, cluster, environment)
+        if args.potree:
+            told("PotreeConverter", Measured([args.potree, sources, "-o", work / "potree"]))
+            shutil.rmtree(work / "potree")
         if args.kill:
             # A folder's name is the collection's, so the land with deaths has the same.
             calm = digests(land)

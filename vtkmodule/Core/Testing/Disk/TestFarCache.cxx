@@ -157,6 +157,32 @@ TEST_F(FarCaching, TheLimitHoldsAndTheLastUsedStay)
   EXPECT_EQ(cache.report().bytes, 0u);
 }
 
+TEST_F(FarCaching, FilesOfOthersStay)
+{
+  // As who names a folder for the cache may have them there.
+  std::vector<std::string> others;
+  for (const char* const name : { "segments/trees.las", "segments/ab/abc-1", "places/roads.shp",
+         "places/0123456789abcdef0123456789abcdef.txt", "segments/ab/notes/7" })
+  {
+    others.push_back(folder + '/' + name);
+    std::filesystem::create_directories(std::filesystem::path(others.back()).parent_path());
+    std::ofstream(others.back()) << "mine";
+  }
+  const FarCache cache(folder, 1 << 20);
+  keep(cache, 0, 8 << 20);
+  cache.note(identity);
+  EXPECT_EQ(cache.verify().damaged, 0);
+  cache.tidy();
+  ASSERT_TRUE(cache.clear());
+  EXPECT_FALSE(has(cache, 0, 1 << 16));
+  EXPECT_FALSE(cache.last(identity.place));
+  for (const std::string& file : others)
+  {
+    EXPECT_TRUE(std::filesystem::exists(file)) << file;
+  }
+  EXPECT_EQ(cache.report().segments, 0);
+}
+
 TEST_F(FarCaching, ADiskThatRefusesIsNoError)
 {
   std::ofstream(folder + "/segments") << "a file where the folder should be";

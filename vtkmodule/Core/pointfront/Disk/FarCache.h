@@ -76,7 +76,7 @@ public:
   Report report() const;
   /// Compares every block with its checksum, and takes out what is damaged.
   Report verify() const;
-  /// Takes out all. Errors  Unwritable.
+  /// Takes out all that it has kept, and nothing else. Errors  Unwritable.
   Result<void> clear() const;
   /// Takes out what was not used for long, until the limit holds.
   void tidy() const;

@@ -3,14 +3,20 @@
 #include "pointfront/Disk/FarSegment.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <filesystem>
+#include <set>
+#include <string>
 #include <sys/stat.h>
+#include <unistd.h>
 #include <vector>
 
 namespace pointfront
 {
 namespace
 {
+constexpr std::size_t hashLength = 32;
+
 struct KeptFile
 {
   std::string path;
@@ -18,7 +24,19 @@ struct KeptFile
   ::timespec used{};
 };
 
-/// Others may take out what is listed here.
+/// As FarCache names what it keeps: a hash, and the number of a segment or of a process.
+bool isKept(const std::filesystem::path& path)
+{
+  const std::string name = path.filename().string();
+  const std::size_t hash = name.find_first_not_of("0123456789abcdef");
+  const std::size_t end = hash == std::string::npos ? name.size() : hash;
+  const bool numbered = end + 1 < name.size() && (name[end] == '-' || name[end] == '.') &&
+    name.find_first_not_of("0123456789", end + 1) == std::string::npos;
+  return end == hashLength && (end == name.size() || numbered);
+}
+
+/// Those of the cache. The folder may have been there before, with files of its user. Others may
+/// take out what is listed here.
 std::vector<KeptFile> filesOf(const std::string& folder)
 {
   std::vector<KeptFile> files;
@@ -31,7 +49,8 @@ std::vector<KeptFile> filesOf(const std::string& folder)
     struct stat state
     {
     };
-    if (::lstat(entry->path().c_str(), &state) == 0 && S_ISREG(state.st_mode))
+    if (isKept(entry->path()) && ::lstat(entry->path().c_str(), &state) == 0 &&
+      S_ISREG(state.st_mode))
     {
       files.push_back(
         { entry->path().string(), std::uint64_t(state.st_blocks) * 512, state.st_mtim });
@@ -82,13 +101,21 @@ Result<void> FarCache::clear() const
 {
   for (const char* const part : { "/segments", "/places" })
   {
-    std::error_code failure;
-    std::filesystem::remove_all(folder_ + part, failure);
-    if (failure)
+    std::set<std::filesystem::path> folders{ folder_ + part };
+    for (const KeptFile& file : filesOf(folder_ + part))
     {
-      return makeError(
-        Error::Kind::Unwritable, folder_ + part + ": cannot be removed: " + failure.message());
+      std::error_code failure;
+      std::filesystem::remove(file.path, failure);
+      if (failure)
+      {
+        return makeError(
+          Error::Kind::Unwritable, file.path + ": cannot be removed: " + failure.message());
+      }
+      folders.insert(std::filesystem::path(file.path).parent_path());
     }
+    // Those below first. What holds files of others stays.
+    std::for_each(folders.rbegin(), folders.rend(),
+      [](const std::filesystem::path& folder) { ::rmdir(folder.c_str()); });
   }
   return {};
 }

@@ -1,7 +1,12 @@
 #include "CollectionTest.h"
 
 #include "pointfront/Disk/Epoch.h"
+#include "pointfront/Query/PointsById.h"
 #include "pointfront/Tiles/StoredCloudFormats.h"
+
+#include <cstdint>
+#include <set>
+#include <utility>
 
 namespace pointfront
 {
@@ -52,6 +57,35 @@ TEST_F(CollectionEpochs, AreCloudsOfTheirOwnInTheNumbersOfAll)
   const NodeIndex root = (*one)->hierarchy()->roots().front();
   EXPECT_EQ((*one)->hierarchy()->node(root).firstPoint, all->hierarchy()->node(root).firstPoint);
   EXPECT_TRUE(all->verify()->ok);
+}
+
+TEST_F(CollectionEpochs, HaveNoPointsOfOthersByTheirNumbers)
+{
+  created({ dated("a.pfront", 0, 0.0, "2019"), dated("b.pfront", 1000, 16.0, "2019"),
+    dated("c.pfront", 2000, 0.0, "2024"), tile("d.pfront", 3000, 32.0) });
+  std::set<std::uint64_t> own;
+  const auto note = [&own](QueryBatch& batch) -> Result<void>
+  {
+    own.insert(batch.ids.begin(), batch.ids.end());
+    return {};
+  };
+  const auto all = opened();
+  ASSERT_TRUE(queryPoints(*all, {}, {}, note));
+  const std::set<std::uint64_t> ids = std::exchange(own, {});
+  const auto one = CollectionCloud::open(at2024());
+  ASSERT_TRUE(one && queryPoints(**one, {}, {}, note));
+  ASSERT_EQ(own.size(), 500u);
+  for (const std::uint64_t id : ids)
+  {
+    std::uint64_t found = 0;
+    const auto count = [&found](QueryBatch& batch) -> Result<void>
+    {
+      found += batch.size();
+      return {};
+    };
+    EXPECT_EQ(bool(pointsById(**one, { id }, {}, {}, count)), own.count(id) > 0) << id;
+    EXPECT_EQ(found, own.count(id)) << id;
+  }
 }
 
 TEST_F(CollectionEpochs, AreAColumnForWhoNamesIt)

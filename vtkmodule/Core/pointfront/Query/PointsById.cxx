@@ -29,6 +29,19 @@ Error notInCloud(const StoreDescription& store, std::uint64_t id)
     Error::Kind::BadArgument, store.path + ": it has no point of the id " + std::to_string(id));
 }
 
+/// Whether a node is below a root: an epoch of a collection has some of the roots, and the table
+/// has the nodes of all.
+bool isShown(const Hierarchy& hierarchy, Node node, NodeIndex index)
+{
+  while (node.parent != noNode)
+  {
+    index = node.parent;
+    node = hierarchy.node(index);
+  }
+  const std::vector<NodeIndex>& roots = hierarchy.roots();
+  return std::find(roots.begin(), roots.end(), index) != roots.end();
+}
+
 Result<std::vector<NodeIds>> nodesOf(
   const StoredCloud& store, const std::vector<std::uint64_t>& ids)
 {
@@ -42,12 +55,13 @@ Result<std::vector<NodeIds>> nodesOf(
     }
     const NodeIndex index = nodeOfPoint(hierarchy, ids[i]);
     const Node row = hierarchy.node(index);
+    const bool shown = isShown(hierarchy, row, index);
     if (std::optional<Error> damage = hierarchy.fault())
     {
       return *damage;
     }
     const std::uint64_t end = row.firstPoint + row.pointCount;
-    if (ids[i] >= end)
+    if (ids[i] >= end || !shown)
     {
       return notInCloud(store.description(), ids[i]);
     }

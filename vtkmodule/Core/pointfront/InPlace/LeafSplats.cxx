@@ -160,7 +160,7 @@ SparseLeaves LeafSplats::sparseLeaves() const
   for (NodeIndex i = 0; i < tree_.nodes().size(); ++i)
   {
     const QuadNode& node = tree_.nodes()[i];
-    squares.push_back({ node.parent, node.sliced || (node.leaf() && !isSlice(i)), node.points,
+    squares.push_back({ node.parent, node.sliced || (node.leaf() && !isSlice(i)), node.area,
       std::sqrt(nodeLifts_[i] * node.area / double(node.points)) });
   }
   return SparseLeaves(squares);

@@ -7,7 +7,7 @@ namespace pointfront
 {
 namespace
 {
-constexpr std::uint64_t sparseOf = 50;
+constexpr double sparseArea = 0.1;
 constexpr double unevenFrom = 2.0;
 } // namespace
 
@@ -25,16 +25,16 @@ SparseLeaves::SparseLeaves(const std::vector<Square>& squares)
   std::stable_sort(sparsestFirst.begin(), sparsestFirst.end(),
     [&](NodeIndex a, NodeIndex b) { return squares[a].spacing > squares[b].spacing; });
 
-  std::vector<std::uint64_t> counted(squares.size(), 0);
+  std::vector<double> counted(squares.size(), 0.0);
   for (const NodeIndex leaf : sparsestFirst)
   {
     const Square& sparse = squares[leaf];
     for (NodeIndex above = sparse.parent; above != noNode; above = squares[above].parent)
     {
       const Square& square = squares[above];
-      const std::uint64_t enough = square.points / sparseOf;
+      const double enough = sparseArea * square.area;
       const bool wereEnough = counted[above] > enough;
-      counted[above] += sparse.points;
+      counted[above] += sparse.area;
       if (!wereEnough && counted[above] > enough && sparse.spacing >= unevenFrom * square.spacing)
       {
         ratios_[above] = static_cast<float>(sparse.spacing / square.spacing);

@@ -12,8 +12,8 @@ namespace pointfront
 /// Need     An inner node draws one point of so many, everywhere. The mean spacing of its square,
 ///          sqrt(area / points), may be far below that of its sparse part: a scanner on a tripod
 ///          has nearly all points around its feet.
-/// Measure  one point of fifty is in leaves of this spacing or a wider one: the same share as of a
-///          leaf's own places in a store (SparsePoints.h).
+/// Measure  a tenth of the area is of leaves with this spacing or a wider one. Of points it may be
+///          far less: seen from afar, the many points of the dense part share few pixels.
 /// Uneven   is a square of which that is at least twice the mean. Squares of strips that overlap
 ///          are less uneven, and keep their mean.
 /// Cost     a sort of the leaves, and their number times the depth of the tree.
@@ -23,9 +23,9 @@ public:
   struct Square
   {
     NodeIndex parent = noNode;
-    bool whole = false; ///< a leaf, or a place whose slices are leaves: its points are counted
-    std::uint64_t points = 0;
-    double spacing = 0.0; ///< mean of its points, in any unit
+    bool whole = false; ///< a leaf, or a place whose slices are leaves: its area counts
+    double area = 0.0;
+    double spacing = 0.0; ///< mean of its points
   };
   explicit SparseLeaves(const std::vector<Square>& squares);
 

@@ -40,6 +40,20 @@ glm::dmat3 cameraAxes(const FrameCamera& camera)
   return axes;
 }
 
+/// The matrix that takes normals to the camera. Their length only tells normals from none, if it is
+/// near enough to 1. An actor's scale is taken off by a power of two, which changes no bit.
+glm::mat3 normalAxes(const glm::dmat3& axes)
+{
+  const glm::dmat3 normals = glm::inverseTranspose(axes);
+  double longest = 0.0;
+  for (int column = 0; column < 3; ++column)
+  {
+    longest = std::max(longest, glm::length(normals[column]));
+  }
+  const bool scaled = longest > 0.0 && std::isfinite(longest);
+  return glm::mat3(normals * (scaled ? std::exp2(-std::round(std::log2(longest))) : 1.0));
+}
+
 /// The camera of the projection, which all items share.
 RasterCamera projectionOf(const FrameCamera& camera)
 {
@@ -114,7 +128,7 @@ RasterItems::RasterItems(const FramePlan& plan, std::size_t from, bool opaque)
       decodeSplatRadius(static_cast<std::uint8_t>(code), plan.splatRadiusBase) * radiusFactor_;
   }
   upFactor_ = static_cast<float>(glm::length(glm::dvec3(plan.camera.storeToView[2])));
-  normalToCamera_ = glm::mat3(glm::inverseTranspose(cameraAxes(plan.camera)));
+  normalToCamera_ = normalAxes(cameraAxes(plan.camera));
   std::uint64_t base = 0;
   constexpr std::uint64_t most = std::numeric_limits<std::uint32_t>::max();
   for (end_ = from; end_ < ordered_.size(); ++end_)

@@ -5,6 +5,7 @@
 
 #include "vtkPointFrontStyle.h"
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include <limits>
@@ -30,18 +31,28 @@ struct NormalPoint
 };
 
 std::string storeOfPoints(const std::string& name, const std::vector<NormalPoint>& points,
-  const glm::dvec3& offset = glm::dvec3(0.0))
+  const glm::dvec3& offset = glm::dvec3(0.0), ScalarType normals = ScalarType::Float32)
 {
   AttributeSchema schema;
   schema.add({ "rgb", ScalarType::UInt8, 3 });
-  schema.add({ "normal", ScalarType::Float32, 3 });
+  const bool floats = normals == ScalarType::Float32;
+  schema.add({ "normal", normals, 3, floats ? 1.0 : 1.0 / 32767.0 });
   const QuantisationGrid grid = millimetres(offset);
   auto cloud = std::make_unique<CloudSource>(name, schema, grid);
   for (const NormalPoint& point : points)
   {
+    const glm::vec3& n = point.normal;
     cloud->addPosition(point.position + offset);
     cloud->addValue(0, point.rgb);
-    cloud->addValue(1, std::array<float, 3>{ point.normal.x, point.normal.y, point.normal.z });
+    if (floats)
+    {
+      cloud->addValue(1, std::array<float, 3>{ n.x, n.y, n.z });
+      continue;
+    }
+    const glm::vec3 steps = glm::round(32767.0f * n);
+    cloud->addValue(1,
+      std::array<std::int16_t, 3>{ static_cast<std::int16_t>(steps.x),
+        static_cast<std::int16_t>(steps.y), static_cast<std::int16_t>(steps.z) });
   }
   return builtStore(name, std::move(cloud));
 }
@@ -248,6 +259,48 @@ TEST(SplatExtremes, NormalsThatAreNone)
     scene.mapper->SetBackendToSoftware();
     EXPECT_LE(differing(picture, scene.draw(), 2), 60) << technique;
     scene.mapper->SetBackendToOpenGL();
+  }
+}
+
+/// Millimetres shown as metres, and far beyond that: discs keep their normals, whose numbers an
+/// actor's matrix makes as large as the actor is small.
+TEST(SplatExtremes, ActorsOfAnyScaleShowTheSamePicture)
+{
+  std::vector<NormalPoint> points = plane(60, 0.05);
+  for (NormalPoint& point : points)
+  {
+    glm::dvec3& p = point.position;
+    const double slope = 1.5 * std::cos(5.0 * p.x);
+    p.z = 0.3 * std::sin(5.0 * p.x);
+    point.normal = glm::normalize(glm::vec3(-slope, 0.0, 1.0));
+    point.rgb = { static_cast<std::uint8_t>(120 + 60 * p.x),
+      static_cast<std::uint8_t>(120 + 60 * p.y), 200 };
+  }
+  for (const ScalarType type : { ScalarType::Int16, ScalarType::Float32 })
+  {
+    const std::string name = "scales" + std::to_string(static_cast<int>(type));
+    Extreme scene(storeOfPoints(name, points, glm::dvec3(0.0), type));
+    for (const std::string& technique : { techniqueWords[0], techniqueWords[5] })
+    {
+      Picture first;
+      for (const double scale : { 1.0, 0.05, 0.01, 0.001, 1.0e-6, 100.0, 1.0e6 })
+      {
+        SCOPED_TRACE(technique + ", times " + std::to_string(scale) + ", " + name);
+        scene.actor->SetScale(scale);
+        scene.lookFrom(scale * glm::dvec3(1.0, -3.0, 2.0), glm::dvec3(0.0));
+        scene.renderer->GetActiveCamera()->SetClippingRange(0.5 * scale, 50.0 * scale);
+        scene.mapper->SetBackendToSoftware();
+        const std::string json = "{\"default\": {" + technique + ", \"light\": true}}";
+        ASSERT_TRUE(scene.style->LoadJSON(json)) << json;
+        const Picture software = scene.draw();
+        scene.mapper->SetBackendToOpenGL();
+        const Picture gl = scene.draw();
+        first = scale == 1.0 ? software : first;
+        EXPECT_GT(software.lit(), 10000);
+        EXPECT_LE(differing(software, first, 2), 0.005 * 300 * 200);
+        EXPECT_LE(differing(software, gl, 2), 0.005 * 300 * 200);
+      }
+    }
   }
 }
 

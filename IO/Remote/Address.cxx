@@ -129,16 +129,29 @@ Result<Address> Address::parse(std::string_view text)
 
 Result<Address> Address::redirected(const std::string& location) const
 {
-  const bool whole = location.find("://") != std::string::npos;
-  const bool fromHost = location.compare(0, 2, "//") == 0;
-  const bool fromRoot = location.compare(0, 1, "/") == 0;
-  Result<Address> next = parse(whole ? location
-      : fromHost                     ? scheme + ":" + location
-      : fromRoot                     ? origin() + location
-                                     : origin() + path.substr(0, path.rfind('/') + 1) + location);
+  if (location.empty())
+  {
+    return makeError(Error::Kind::BadArgument, "a redirection to nowhere");
+  }
+  std::string target;
+  for (const char c : location)
+  {
+    target += c == ' ' ? "%20" : std::string(1, c);
+  }
+  const char first = target.front();
+  const bool fromHost = target.compare(0, 2, "//") == 0;
+  Result<Address> next = parse(isAddress(target) ? target
+      : fromHost                                 ? scheme + ":" + target
+      : first == '/'                             ? origin() + target
+      : first == '?'                             ? origin() + path + target
+                     : origin() + path.substr(0, path.rfind('/') + 1) + target);
   if (next)
   {
     next->settings.clear(); // those are the user's alone
+    if (next->userInfo.empty() && next->origin() == origin())
+    {
+      next->userInfo = userInfo;
+    }
   }
   return next;
 }

@@ -21,7 +21,8 @@ struct Address
   /// Errors  BadArgument, without the address's secret parts: no host, control characters.
   static Result<Address> parse(std::string_view text);
 
-  /// The address that a redirection from this one names ("Location: ../b").
+  /// The address that a redirection from this one names ("Location: ../b"). User and password go
+  /// on to the same origin, and to no other. Errors  BadArgument, an empty name among them.
   Result<Address> redirected(const std::string& location) const;
   /// All of it, for the request. The fragment ("#...") of what was parsed is gone.
   std::string text() const;

@@ -93,6 +93,30 @@ TEST(Address, ARedirectionSetsNothing)
   }
 }
 
+TEST(Address, ARedirectionOfTheSameServerKeepsTheUser)
+{
+  const Address from = Address::parse("https://me:pass@host/a/b?v=1").value();
+  const auto next = [&from](const char* to) { return from.redirected(to).value().text(); };
+  EXPECT_EQ(next("/c"), "https://me:pass@host/c");
+  EXPECT_EQ(next("c"), "https://me:pass@host/a/c");
+  EXPECT_EQ(next("https://HOST/c"), "https://me:pass@host/c");
+  EXPECT_EQ(next("https://you:x@host/c"), "https://you:x@host/c");
+  EXPECT_EQ(next("http://host/c"), "http://host/c");
+  EXPECT_EQ(next("https://host:8443/c"), "https://host:8443/c");
+  EXPECT_EQ(next("//other/c"), "https://other/c");
+}
+
+TEST(Address, ARedirectionIsReadAsBrowsersReadIt)
+{
+  const Address from = Address::parse("https://host/a/b?v=1").value();
+  const auto next = [&from](const char* to) { return from.redirected(to).value().text(); };
+  EXPECT_EQ(next("?x=1"), "https://host/a/b?x=1");
+  EXPECT_EQ(next("/ok?from=http://h/"), "https://host/ok?from=http://h/");
+  EXPECT_EQ(next("ok?from=http://h/"), "https://host/a/ok?from=http://h/");
+  EXPECT_EQ(next("/with blank"), "https://host/with%20blank");
+  EXPECT_FALSE(from.redirected(""));
+}
+
 /// Only what lies on the same server.
 TEST(Address, AWholeAddressOfTheSameServerHasTheUserOfItsList)
 {

@@ -66,16 +66,18 @@ Conversation::Redirection& Conversation::redirection() const
   return redirection_.get([] { return std::make_unique<Redirection>(); });
 }
 
+Address Conversation::placeNow() const
+{
+  Redirection& known = redirection();
+  const std::lock_guard<std::mutex> lock(known.mutex);
+  return known.elsewhere.value_or(request_.address);
+}
+
 HttpQuestion Conversation::questionFor(
   const WantedBytes& wanted, const std::optional<RemoteIdentity>& identity) const
 {
   HttpQuestion question;
-  Address place = request_.address;
-  {
-    Redirection& known = redirection();
-    const std::lock_guard<std::mutex> lock(known.mutex);
-    place = known.elsewhere.value_or(place);
-  }
+  const Address place = placeNow();
   question.url = place.text();
   if (place.origin() == request_.address.origin())
   {
@@ -127,6 +129,7 @@ Result<Conversation::Round> Conversation::ask(const std::vector<WantedBytes*>& m
   bool refused = false;
   for (std::size_t i = 0; i < answers.size(); ++i)
   {
+    answers[i].asked = questions[i].url;
     const Result<Verdict> verdict = judge(answers[i], *missing[i], identity);
     if (!verdict)
     {

@@ -76,6 +76,9 @@ private:
   {
     std::mutex mutex; ///< guards all that follows
     std::optional<Address> elsewhere; ///< where the address was redirected to
+    /// How long the redirections up to there promise to last: a name that leads elsewhere tomorrow
+    /// is another file, whatever the file that it leads to promises.
+    std::chrono::seconds lastsFor = std::chrono::seconds::max();
     unsigned inSequence = 0;
   };
   /// One question for each part that is missing.
@@ -105,6 +108,7 @@ private:
     const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const;
   Result<Verdict> redirect(const HttpAnswer& answer) const;
   Redirection& redirection() const;
+  Address placeNow() const; ///< where the next question goes
   Error changed(std::optional<RemoteIdentity>& identity) const;
   static bool isForNow(long status); ///< a server that has too much to do
   Error refused(long status) const;

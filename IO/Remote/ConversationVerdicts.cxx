@@ -63,10 +63,13 @@ Error Conversation::refused(long status) const
 Result<void> Conversation::compare(
   const HttpAnswer& answer, std::uint64_t bytes, std::optional<RemoteIdentity>& identity) const
 {
-  const RemoteIdentity found{ answer.header("etag"), answer.header("last-modified"), bytes, false,
+  RemoteIdentity found{ answer.header("etag"), answer.header("last-modified"), bytes, false,
     unchangedFor(answer) };
   if (!identity)
   {
+    Redirection& known = redirection();
+    const std::lock_guard<std::mutex> lock(known.mutex);
+    found.unchangedFor = std::min(found.unchangedFor, known.lastsFor);
     identity = found;
     return {};
   }
@@ -181,19 +184,24 @@ Result<Conversation::Verdict> Conversation::redirect(const HttpAnswer& answer) c
 {
   Redirection& known = redirection();
   const std::lock_guard<std::mutex> lock(known.mutex);
+  const Address from = known.elsewhere.value_or(request_.address);
+  if (answer.asked != from.text())
+  {
+    return Verdict::Redirected; // another answer of the same place was followed already
+  }
   if (++known.inSequence > options_.redirects)
   {
     return failed(Error::Kind::Unreadable,
       "is redirected more than " + std::to_string(options_.redirects) +
         " times, perhaps in a circle");
   }
-  const Result<Address> next =
-    known.elsewhere.value_or(request_.address).redirected(answer.header("location"));
+  const Result<Address> next = from.redirected(answer.header("location"));
   if (!next || (next->scheme != "http" && next->scheme != "https"))
   {
     return failed(Error::Kind::Unreadable, "is redirected to what is no http or https address");
   }
   known.elsewhere = *next;
+  known.lastsFor = std::min(known.lastsFor, unchangedFor(answer));
   return Verdict::Redirected;
 }
 
@@ -265,9 +273,14 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   }
   Redirection& known = redirection();
   const std::lock_guard<std::mutex> lock(known.mutex);
+  if (answer.asked != known.elsewhere.value_or(request_.address).text())
+  {
+    return Verdict::Again; // another answer said so before
+  }
   if (known.elsewhere && known.inSequence == 0)
   {
     known.elsewhere.reset(); // an earlier redirection may have expired
+    known.lastsFor = std::chrono::seconds::max();
     return Verdict::Again;
   }
   return refused(answer.status);

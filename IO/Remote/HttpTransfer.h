@@ -56,6 +56,7 @@ struct HttpAnswer
     Cancelled
   };
   Outcome outcome = Outcome::Cancelled;
+  std::string asked; ///< the question's address, with its secrets
   bool final = false; ///< no use in trying again (an unknown name, a certificate)
   std::string text; ///< the library's text, without secrets
   long status = 0;

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <mutex>
 #include <netinet/in.h>
 #include <string>
@@ -68,6 +69,9 @@ public:
   std::atomic<unsigned> requests{ 0 };
   std::atomic<unsigned> left{ 0 }; ///< connections that the client has closed
   std::chrono::milliseconds pause{ 0 }; ///< before an answer
+  /// Answers a request instead of the file, if it gives anything. Set it before the first request.
+  std::function<std::string(const std::string& target, const std::string& request)> instead;
+  std::string filesHeaders; ///< further headers of the file's parts, each with its end of line
 
 private:
   void accept()
@@ -108,6 +112,16 @@ private:
     {
       return "HTTP/1.1 503 no\r\nContent-Length: 0\r\n\r\n";
     }
+    if (instead)
+    {
+      const std::size_t target = request.find(' ') + 1;
+      const std::string answer =
+        instead(request.substr(target, request.find(' ', target) - target), request);
+      if (!answer.empty())
+      {
+        return answer;
+      }
+    }
     std::size_t first = 0;
     std::size_t last = 0;
     const std::size_t at = request.find("Range: bytes=");
@@ -130,7 +144,7 @@ private:
     return "HTTP/1.1 206 part\r\nETag: \"" + std::to_string(state) +
       "\"\r\nContent-Length: " + std::to_string(body.size()) + "\r\nContent-Range: bytes " +
       std::to_string(first) + "-" + std::to_string(last) + "/" + std::to_string(file_.size()) +
-      "\r\n\r\n" + body;
+      "\r\n" + filesHeaders + "\r\n" + body;
   }
 
   const std::string file_;

@@ -38,6 +38,26 @@ std::optional<std::int64_t> secondsOf(std::string text)
   const bool sound = fault == std::errc() && stopped == end && seconds >= 0;
   return sound ? std::optional<std::int64_t>(seconds) : std::nullopt;
 }
+
+/// A word as object stores write codes and regions. Anything else is let go: a server's text need
+/// not be fit for a message.
+std::string soundWord(const std::string& text)
+{
+  const bool sound = text.size() <= 60 &&
+    std::all_of(text.begin(), text.end(),
+      [](char letter) { return isAsciiLetterOrDigit(letter) || letter == '-' || letter == '_'; });
+  return sound ? text : std::string();
+}
+
+std::string elementOf(const std::string& words, const std::string& name)
+{
+  const std::string open = '<' + name + '>';
+  const std::size_t at = words.find(open);
+  const std::size_t end = at == std::string::npos ? at : words.find('<', at + open.size());
+  return end == std::string::npos
+    ? std::string()
+    : soundWord(words.substr(at + open.size(), end - at - open.size()));
+}
 } // namespace
 
 std::chrono::milliseconds askedPause(const HttpAnswer& answer)
@@ -69,6 +89,17 @@ std::chrono::seconds unchangedFor(const HttpAnswer& answer)
   const std::optional<std::int64_t> passed = age.empty() ? 0 : secondsOf(plainWords(age));
   const bool promised = immutable && passed && *passed < lasts;
   return std::chrono::seconds(promised ? lasts - *passed : 0);
+}
+
+std::string faultCode(const HttpAnswer& answer)
+{
+  return elementOf(answer.words, "Code");
+}
+
+std::string bucketRegion(const HttpAnswer& answer)
+{
+  const std::string region = soundWord(answer.header("x-amz-bucket-region"));
+  return region.empty() ? elementOf(answer.words, "Region") : region;
 }
 
 } // namespace pointfront

@@ -3,6 +3,7 @@
 #include "HttpTransfer.h"
 
 #include <chrono>
+#include <string>
 
 namespace pointfront
 {
@@ -15,5 +16,11 @@ std::chrono::milliseconds askedPause(const HttpAnswer& answer);
 /// `max-age` says (RFC 9111), a year at most, less the time that a cache on the way has had it.
 /// Zero without both: a file that is merely fresh may be another one by now.
 std::chrono::seconds unchangedFor(const HttpAnswer& answer);
+
+/// An object store's name of a fault (<Code>ExpiredToken</Code>). Empty: it gives none, or none
+/// that may stand in a message.
+std::string faultCode(const HttpAnswer& answer);
+/// The region of the bucket, if an object store says that another one was asked; or empty.
+std::string bucketRegion(const HttpAnswer& answer);
 
 } // namespace pointfront

@@ -111,7 +111,8 @@ private:
   Address placeNow() const; ///< where the next question goes
   Error changed(std::optional<RemoteIdentity>& identity) const;
   static bool isForNow(long status); ///< a server that has too much to do
-  Error refused(long status) const;
+  Error refused(const HttpAnswer& answer) const;
+  Error elsewhereUnknown(const HttpAnswer& answer) const;
   Error withoutParts() const;
   Error failed(Error::Kind kind, const std::string& what) const;
 

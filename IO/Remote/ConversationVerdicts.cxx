@@ -4,6 +4,8 @@
 #include "AnswerHeaders.h"
 #include "HttpTransfer.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
+
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
@@ -42,21 +44,57 @@ Error Conversation::withoutParts() const
       "a server that does");
 }
 
-Error Conversation::refused(long status) const
+Error Conversation::refused(const HttpAnswer& answer) const
 {
-  const std::string answer = "the server answers " + std::to_string(status);
+  const long status = answer.status;
+  const std::string code = faultCode(answer);
+  const std::string said =
+    "the server answers " + std::to_string(status) + (code.empty() ? "" : " (" + code + ")");
   if (status == 404 || status == 410)
   {
-    return failed(Error::Kind::NotFound, "does not exist: " + answer + "; check the address");
+    return failed(Error::Kind::NotFound, "does not exist: " + said + "; check the address");
+  }
+  if (code == "ExpiredToken" || code == "TokenRefreshRequired" || code == "InvalidToken")
+  {
+    return failed(Error::Kind::Unreadable,
+      "may not be read: " + said +
+        "; the keys have run out: get new ones, and AWS_SESSION_TOKEN with them");
+  }
+  if (code == "AuthorizationHeaderMalformed")
+  {
+    const std::string region = bucketRegion(answer);
+    return failed(Error::Kind::Unreadable,
+      "may not be read: " + said + "; " +
+        (region.empty() ? "check AWS_ACCESS_KEY_ID, and set AWS_REGION to the bucket's region"
+                        : "set AWS_REGION=" + region));
   }
   if (status == 401 || status == 403)
   {
     return failed(Error::Kind::Unreadable,
-      "may not be read: " + answer +
+      "may not be read: " + said +
         "; give keys or a token, or a new address if it was signed and has expired");
   }
   return failed(Error::Kind::Unreadable,
-    "cannot be read: " + answer + (isForNow(status) ? ", again and again; try later" : ""));
+    "cannot be read: " + said + (isForNow(status) ? ", again and again; try later" : ""));
+}
+
+/// A redirection that does not say where to. Amazon's does so for a bucket of another region.
+Error Conversation::elsewhereUnknown(const HttpAnswer& answer) const
+{
+  const std::string said = "the server answers " + std::to_string(answer.status);
+  const std::string region = bucketRegion(answer);
+  const bool store = schemeOf(name_) == "s3";
+  if (!store && region.empty())
+  {
+    return failed(Error::Kind::Unreadable,
+      "cannot be read: " + said + ", a redirection, and does not say to where");
+  }
+  const std::string where =
+    region.empty() ? "in another region, perhaps" : "in the region " + region;
+  return failed(Error::Kind::Unreadable,
+    "lies " + where + ": " + said + "; " +
+      (store ? "set AWS_REGION=" + (region.empty() ? "REGION" : region)
+             : "use the address of that region"));
 }
 
 /// The answer is of the file that is known, or of the one that is known from now on.
@@ -254,7 +292,7 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
   }
   if (isRedirection(answer.status))
   {
-    return redirect(answer);
+    return answer.header("location").empty() ? elsewhereUnknown(answer) : redirect(answer);
   }
   if (answer.status == 416 && !identity && answer.range && answer.range->total == 0)
   {
@@ -283,7 +321,7 @@ Result<Conversation::Verdict> Conversation::judgeStatus(
     known.lastsFor = std::chrono::seconds::max();
     return Verdict::Again;
   }
-  return refused(answer.status);
+  return refused(answer);
 }
 
 } // namespace pointfront

@@ -62,6 +62,7 @@ struct HttpAnswer
   long status = 0;
   std::map<std::string, std::string> headers; ///< names in small letters; the last of a name
   std::optional<ContentRange> range; ///< range of status 206 and 416
+  std::string words; ///< the beginning of what a server says about a fault
   std::vector<std::byte> body; ///< body of status 206 and 200, as far as it came
   double firstByteSeconds = 0.0; ///< from the request, connected, to the first byte
 

@@ -21,6 +21,7 @@ namespace
 {
 constexpr std::size_t mostHeaderBytes = std::size_t(256) << 10;
 constexpr std::size_t mostUnwantedBytes = std::size_t(64) << 10; ///< for a body without an answer
+constexpr std::size_t mostWords = 4096; ///< its first bytes, which name the fault
 constexpr std::uint64_t mostReservedBytes = std::uint64_t(8) << 20;
 constexpr long connectSeconds = 10;
 constexpr long stallSeconds = 10; ///< without a byte
@@ -177,7 +178,8 @@ std::size_t Transfer::takeBody(const char* data, std::size_t size)
   if (answer_->status != 206 && !whole)
   {
     unwanted_ += size;
-    return unwanted_ <= mostUnwantedBytes ? size : 0; // a page of words; nobody reads it
+    answer_->words.append(data, std::min(size, mostWords - answer_->words.size()));
+    return unwanted_ <= mostUnwantedBytes ? size : 0;
   }
   if (answer_->body.empty())
   {

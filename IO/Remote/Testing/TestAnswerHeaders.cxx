@@ -45,4 +45,23 @@ TEST(AnswerHeaders, PausesAreNoLongerThanHalfAMinute)
   EXPECT_EQ(seconds("Fri, 27 Nov 2026 08:00:00 GMT"), 0);
 }
 
+TEST(AnswerHeaders, AFaultIsNamedByPlainWordsOnly)
+{
+  HttpAnswer answer;
+  EXPECT_EQ(faultCode(answer) + bucketRegion(answer), "");
+  answer.words = "<Error><Code>Some-Code</Code><Region>eu-west-1</Region></Error>";
+  EXPECT_EQ(faultCode(answer), "Some-Code");
+  EXPECT_EQ(bucketRegion(answer), "eu-west-1");
+  answer.headers["x-amz-bucket-region"] = "us-west-2";
+  EXPECT_EQ(bucketRegion(answer), "us-west-2");
+  answer.headers["x-amz-bucket-region"] = "us; rm -rf";
+  EXPECT_EQ(bucketRegion(answer), "eu-west-1");
+  for (const char* const words : { "<Code>", "<Code>cut off", "<Code>two words</Code>",
+         "<Code>\x1b[2J</Code>", "<code>x</code>" })
+  {
+    answer.words = words;
+    EXPECT_EQ(faultCode(answer), "") << words;
+  }
+}
+
 } // namespace pointfront

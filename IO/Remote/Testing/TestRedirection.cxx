@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstring>
+#include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <unistd.h>
@@ -112,6 +112,55 @@ TEST(Redirection, ARedirectionThatRanOutIsAskedForAgain)
   ++signature;
   const Result<void> read = (*source)->read(ranges.data(), ranges.size());
   EXPECT_TRUE(read) << read.error().what;
+}
+
+namespace
+{
+/// Why a file cannot be had of a server that answers so; "s3": by its name in a bucket.
+std::string whyOf(const std::string& answer, bool s3 = true)
+{
+  SmallServer server("x");
+  server.instead = [&answer](const std::string&, const std::string&) { return answer; };
+  const std::string endpoint = server.address("");
+  ::setenv("AWS_ENDPOINT_URL", endpoint.c_str(), 1);
+  ::setenv("AWS_NO_SIGN_REQUEST", "YES", 1);
+  const auto source =
+    RemoteOpener(RemoteOptions{})
+      .open(s3 ? "s3://bucket/x.pfront" : server.address("x.pfront"), { 4096, 0 });
+  ::unsetenv("AWS_ENDPOINT_URL");
+  ::unsetenv("AWS_NO_SIGN_REQUEST");
+  return source ? "it opens" : source.error().what;
+}
+
+std::string answerOf(const std::string& line, const std::string& words = {})
+{
+  return "HTTP/1.1 " + line + "\r\nContent-Length: " + std::to_string(words.size()) + "\r\n\r\n" +
+    words;
+}
+} // namespace
+
+TEST(Redirection, ABucketOfAnotherRegionIsTold)
+{
+  const std::string moved = "301 x\r\nx-amz-bucket-region: eu-west-1";
+  EXPECT_NE(whyOf(answerOf(moved)).find("set AWS_REGION=eu-west-1"), std::string::npos);
+  EXPECT_NE(whyOf(answerOf("301 x")).find("set AWS_REGION="), std::string::npos);
+  const std::string plain = whyOf(answerOf(moved), false);
+  EXPECT_NE(plain.find("eu-west-1"), std::string::npos) << plain;
+  EXPECT_EQ(plain.find("AWS_"), std::string::npos) << plain;
+  const std::string nowhere = whyOf(answerOf("302 x"), false);
+  EXPECT_NE(nowhere.find("does not say to where"), std::string::npos) << nowhere;
+}
+
+TEST(Redirection, AStoresFaultSaysWhatToDo)
+{
+  const std::string region = "<Error><Code>AuthorizationHeaderMalformed</Code><Message>the region "
+                             "is wrong</Message><Region>eu-west-1</Region></Error>";
+  const std::string wrong = whyOf(answerOf("400 x", region));
+  EXPECT_NE(wrong.find("set AWS_REGION=eu-west-1"), std::string::npos) << wrong;
+  const std::string past = whyOf(answerOf("400 x", "<Error><Code>ExpiredToken</Code></Error>"));
+  EXPECT_NE(past.find("AWS_SESSION_TOKEN"), std::string::npos) << past;
+  const std::string other = whyOf(answerOf("400 x", "<html>no"));
+  EXPECT_NE(other.find("the server answers 400"), std::string::npos) << other;
 }
 
 } // namespace pointfront

@@ -1,5 +1,8 @@
 #include "Address.h"
 
+#include "Sha256.h"
+
+#include "pointfront/Base/LetterCase.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/FarSettings.h"
 #include "pointfront/Threads/ForkHold.h"
@@ -7,9 +10,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <initializer_list>
 #include <map>
 #include <random>
 #include <string_view>
+#include <vector>
 
 namespace pointfront
 {
@@ -28,18 +33,61 @@ std::uint64_t hashOf(const std::string& text)
   return hash;
 }
 
-/// Names of a query's parts that are keys or change with each signature: Amazon's, Google's and
-/// Azure's, and what others call theirs.
-bool isKey(std::string name)
+/// The part of a signature that each part of a query is, if it is one for sure. Many a server has a
+/// file's name in "key", "token" or "st", so those of Azure count only beside its `sig`, and those
+/// of Amazon's older and Google's older signatures only together.
+class SignedParts
 {
-  std::transform(name.begin(), name.end(), name.begin(),
-    [](unsigned char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : char(c); });
-  static constexpr std::string_view names[] = { "sig", "signature", "expires", "policy",
-    "key-pair-id", "awsaccesskeyid", "googleaccessid", "se", "sp", "sv", "sr", "st", "spr", "sip",
-    "skoid", "sktid", "skt", "ske", "sks", "skv", "sdd", "ss", "srt", "token", "access_token",
-    "auth", "authorization", "key", "apikey", "api_key", "api-key", "password", "secret" };
-  return name.rfind("x-amz-", 0) == 0 || name.rfind("x-goog-", 0) == 0 ||
-    std::find(std::begin(names), std::end(names), name) != std::end(names);
+public:
+  explicit SignedParts(const std::vector<std::string>& names)
+    : names_(names)
+  {
+    const bool signature = has("signature");
+    azure_ = has("sig");
+    cloudFront_ = signature && has("key-pair-id") && (has("policy") || has("expires"));
+    store_ = signature && has("expires") &&
+      (has("awsaccesskeyid") || has("googleaccessid") || has("ossaccesskeyid"));
+  }
+  bool isSignature(const std::string& name) const
+  {
+    return name.rfind("x-amz-", 0) == 0 || name.rfind("x-goog-", 0) == 0 ||
+      (azure_ &&
+        isOf(name,
+          { "sig", "se", "sp", "sv", "sr", "st", "si", "spr", "sip", "skoid", "sktid", "skt", "ske",
+            "sks", "skv", "sdd", "ss", "srt" })) ||
+      (cloudFront_ && isOf(name, { "signature", "key-pair-id", "policy", "expires" })) ||
+      (store_ &&
+        isOf(
+          name, { "signature", "expires", "awsaccesskeyid", "googleaccessid", "ossaccesskeyid" }));
+  }
+
+private:
+  static bool isOf(const std::string& name, std::initializer_list<std::string_view> list)
+  {
+    return std::find(list.begin(), list.end(), name) != list.end();
+  }
+  bool has(std::string_view name) const
+  {
+    return std::find(names_.begin(), names_.end(), name) != names_.end();
+  }
+
+  const std::vector<std::string>& names_; ///< in small letters
+  bool azure_ = false;
+  bool cloudFront_ = false;
+  bool store_ = false;
+};
+
+/// The parts of a query, between '&'.
+std::vector<std::string> partsOf(const std::string& query)
+{
+  std::vector<std::string> parts;
+  for (std::size_t begin = 0; begin < query.size();)
+  {
+    const std::size_t end = std::min(query.find('&', begin), query.size());
+    parts.push_back(query.substr(begin, end - begin));
+    begin = end + 1;
+  }
+  return parts;
 }
 
 /// A child of fork() knows the addresses of its parent.
@@ -175,25 +223,20 @@ std::string Address::publicForm() const
 
 std::string Address::place() const
 {
+  const std::vector<std::string> parts = partsOf(query);
+  std::vector<std::string> names;
+  for (const std::string& part : parts)
+  {
+    names.push_back(lowered(part.substr(0, part.find('='))));
+  }
+  const SignedParts signedParts(names);
   std::string others;
-  for (std::size_t begin = 0; begin < query.size();)
+  for (std::size_t i = 0; i < parts.size(); ++i)
   {
-    const std::size_t end = std::min(query.find('&', begin), query.size());
-    const std::string one = query.substr(begin, end - begin);
-    if (!isKey(one.substr(0, one.find('='))))
-    {
-      others += one + '&';
-    }
-    begin = end + 1;
+    others += signedParts.isSignature(names[i]) ? "" : parts[i] + '&';
   }
-  std::string text = scheme + "://" + host + path;
-  if (!others.empty())
-  {
-    char hash[24];
-    std::snprintf(hash, sizeof hash, "%016llx", static_cast<unsigned long long>(hashOf(others)));
-    text += std::string("?") + hashMark + hash;
-  }
-  return text;
+  const std::string text = scheme + "://" + host + path;
+  return others.empty() ? text : text + '?' + hashMark + sha256(others);
 }
 
 std::string rememberAddress(const Address& address)

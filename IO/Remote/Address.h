@@ -36,7 +36,8 @@ struct Address
   /// Requests to the same origin may carry the same secrets.
   std::string origin() const { return scheme + "://" + host; }
   /// Where the bytes are, whoever asks for them: without user, password, and what of the query is a
-  /// key or a signature. What else is in the query ("?version=2") counts as a hash of 64 bits.
+  /// signature for sure. What else is in the query ("?version=2", "?key=a.pfront") may choose the
+  /// file, and may be secret: its SHA-256 stands for it.
   std::string place() const;
 };
 

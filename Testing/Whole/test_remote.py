@@ -303,7 +303,7 @@ class Cache(RemoteTest):
                          self.points(self.store))
 
     def test_damage_is_seen_and_nothing_secret_lies_there(self):
-        address = f"{self.address('')}?{SECRET}"
+        address = f"{self.address('')}?{SECRET}&token=VERY-SECRET"
         self.points(address, environment=self.with_cache)
         files = [path for path in self.cache.rglob("*") if path.is_file()]
         self.assertTrue(files)

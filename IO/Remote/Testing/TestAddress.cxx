@@ -140,10 +140,35 @@ TEST(Address, ThePublicFormKeepsAnEpoch)
 
 TEST(Address, APlaceIsTheSameWhoeverSignsForIt)
 {
-  EXPECT_EQ(placeOf("https://me:pass@host/a?X-Amz-Signature=1&sig=2"), "https://host/a");
-  EXPECT_EQ(placeOf("https://host/a?v=2&Token=1"), placeOf("https://host/a?token=3&v=2"));
+  const std::string plain = "https://host/a";
+  EXPECT_EQ(placeOf("https://me:pass@host/a?X-Amz-Signature=1&sig=2"), plain);
+  for (const char* const query : { "sig=1", "sv=2024-11-04&sr=b&st=now&se=then&sp=r&sig=1",
+         "X-Goog-Algorithm=A&x-goog-signature=1", "Policy=p&Signature=1&Key-Pair-Id=K",
+         "Expires=9&Signature=1&Key-Pair-Id=K", "AWSAccessKeyId=A&Signature=1&Expires=9",
+         "GoogleAccessId=A&Expires=9&Signature=1", "OSSAccessKeyId=A&Expires=9&Signature=1" })
+  {
+    EXPECT_EQ(placeOf(plain + '?' + query), plain) << query;
+    EXPECT_EQ(placeOf(plain + "?v=2&" + query), placeOf(plain + "?v=2")) << query;
+  }
   EXPECT_NE(placeOf("https://host/a?v=2"), placeOf("https://host/a?v=3"));
   EXPECT_EQ(placeOf("https://host/a?v=hidden").find("hidden"), std::string::npos);
+}
+
+/// "?key=a.pfront" is the name of a file for many a server.
+TEST(Address, APartOfAQueryThatIsNoSignatureForSureMayChooseTheFile)
+{
+  for (const char* const name : { "key", "token", "st", "se", "sv", "sr", "ss", "policy", "auth",
+         "signature", "expires", "Key-Pair-Id", "password", "AWSAccessKeyId" })
+  {
+    const std::string asked = std::string("https://host/get?") + name + '=';
+    EXPECT_NE(placeOf(asked + "one.pfront"), placeOf(asked + "other.pfront")) << name;
+    EXPECT_EQ(placeOf(asked + "one.pfront"), placeOf(asked + "one.pfront")) << name;
+    EXPECT_EQ(placeOf(asked + "one.pfront").find("one"), std::string::npos) << name;
+    EXPECT_NE(placeOf(asked + "one.pfront&x-amz-signature=1"), placeOf("https://host/get"));
+  }
+  // From 64 bits a short key could be told: nothing shorter than this stands for it.
+  const std::string place = placeOf("https://host/get?key=a");
+  EXPECT_EQ(place.size(), std::string("https://host/get?~").size() + 64);
 }
 
 } // namespace pointfront

@@ -1,6 +1,7 @@
 // The part of `pointfront build` that is about tiles.
 #include "BuildCommand.h"
 #include "ByteSize.h"
+#include "ChosenPasses.h"
 #include "InputFaults.h"
 #include "PeakMemory.h"
 #include "ProgressDisplay.h"
@@ -24,6 +25,18 @@ std::string checkStep(const std::string& text)
   return text == "plan" || text == "settle" || text == "collect" || survey || tile
     ? std::string()
     : "'" + text + "' is no step: plan, survey:N, settle, tile:NAME or collect";
+}
+
+/// The plan keeps the names of images: those that cannot be read are refused before it is written.
+Result<void> checkTilePasses(const PassChoice& choice)
+{
+  if (choice.normalsEps > 0.0)
+  {
+    return makeError(Error::Kind::BadArgument,
+      "--tiles with --normals-eps: neighbours of an approximate search depend on what else is "
+      "searched, so tiles would have seams; leave --normals-eps out");
+  }
+  return checkImages(choice);
 }
 } // namespace
 
@@ -89,10 +102,9 @@ Result<void> BuildCommand::buildTiles()
                   "export the box and build tiles of that");
   }
   const PassChoice choice = passes_.choice();
-  if (choice.normalsEps > 0.0)
+  if (Result<void> right = checkTilePasses(choice); !right)
   {
-    return refuse("--tiles with --normals-eps: neighbours of an approximate search depend on what "
-                  "else is searched, so tiles would have seams; leave --normals-eps out");
+    return right;
   }
   const SourceFormats formats(sourceChoice_.options(options_));
   ProgressDisplay display(*ProgressDisplay::styleOf(progress_));

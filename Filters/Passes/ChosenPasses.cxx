@@ -110,4 +110,11 @@ Result<AttributePasses> chosenPasses(const PassChoice& choice)
   return passes;
 }
 
+Result<void> checkImages(const PassChoice& choice)
+{
+  const Result<std::vector<RasterInput>> images =
+    RasterModule::inputs(choice.colourFrom, choice.attributeFrom);
+  return images ? Result<void>() : Result<void>(images.error());
+}
+
 } // namespace pointfront

@@ -13,5 +13,7 @@ namespace pointfront
 ///          NotFound: an image; Unsupported: this build was made without the passes that are asked
 ///          for, or the library that reads images is not installed.
 Result<AttributePasses> chosenPasses(const PassChoice& choice);
+/// Whether the images that it names can be there: its part of the errors, without opening any.
+Result<void> checkImages(const PassChoice& choice);
 
 } // namespace pointfront

@@ -2,6 +2,8 @@
 
 #include "InputFiles.h"
 
+#include "pointfront/Disk/ByteOpeners.h"
+
 #include <algorithm>
 #include <dlfcn.h>
 
@@ -40,6 +42,23 @@ RasterInput& inputOf(std::vector<RasterInput>& inputs, const std::string& attrib
   return inputs.back();
 }
 
+/// Before anything of an argument is told: an address may have a password or a signature.
+Result<void> refuseAddress(const std::string& option, const std::string& argument)
+{
+  const std::string behindName = argument.substr(argument.find('=') + 1); // all of it without '='
+  for (const std::string& image : { argument, behindName })
+  {
+    if (isAddress(image))
+    {
+      return makeError(Error::Kind::BadArgument,
+        option + ": '" + schemeOf(image) +
+          "://...' is an address, and images are read from files only; download the image and name "
+          "the file");
+    }
+  }
+  return {};
+}
+
 bool taken(const std::string& name)
 {
   return name == "rgb" || name == "x" || name == "y" || name == "z" || name == "normal";
@@ -52,6 +71,10 @@ Result<std::vector<RasterInput>> RasterModule::inputs(
   std::vector<RasterInput> inputs;
   for (const std::string& argument : colourFrom)
   {
+    if (Result<void> right = refuseAddress("--color-from", argument); !right)
+    {
+      return right.error();
+    }
     if (Result<void> done = append(argument, inputOf(inputs, "rgb").images); !done)
     {
       return done.error();
@@ -60,6 +83,10 @@ Result<std::vector<RasterInput>> RasterModule::inputs(
   std::string attribute;
   for (const std::string& argument : attributeFrom)
   {
+    if (Result<void> right = refuseAddress("--attribute-from", argument); !right)
+    {
+      return right.error();
+    }
     const std::size_t equals = argument.find('=');
     if (equals != std::string::npos)
     {

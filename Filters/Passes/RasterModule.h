@@ -20,7 +20,9 @@ public:
   /// `--color-from` and `--attribute-from` as given: files, patterns, folders. In the second, what
   /// stands before the first "=" names the attribute of that image and those that follow.
   /// Order    of the arguments, then of the names within a pattern or folder.
-  /// Errors   NotFound; BadArgument: no attribute named, or a name that cannot be taken.
+  /// Errors   NotFound; BadArgument: no attribute named, a name that cannot be taken, or an
+  /// address,
+  ///          which stays untold.
   static Result<std::vector<RasterInput>> inputs(
     const std::vector<std::string>& colourFrom, const std::vector<std::string>& attributeFrom);
 

@@ -54,6 +54,22 @@ class Georeference(ToolTest):
             self.refuse(1, "build", CLOUD, "-o", self.folder / "b.pfront", *option)
         self.assertEqual(self.entries(), [])
 
+    def test_an_image_behind_an_address_is_refused_without_its_secrets(self):
+        host = "http:" + "//me:SECRET@example.org"
+        address = f"{host}/a.tif?sig=SECRET"
+        out = self.folder / "b.pfront"
+        for option in (
+            ("--color-from", address), ("--attribute-from", f"h={address}"),
+            ("--attribute-from", address), ("--attribute-from", f"={address}"),
+            ("--attribute-from", f"h={host}"),
+            ("--attribute-from", f"h={ORTHO / 'autzen/autzen.jpg'}", address),
+        ):
+            for more in ((), ("--tiles", "--tile", "400")):
+                said = self.refuse(1, "build", CLOUD, "-o", out, *option, *more).err
+                self.assertIn("images are read from files only", said)
+                self.assertNotIn("SECRET", said)
+        self.assertEqual(self.entries(), [])
+
     def test_one_system_for_all_inputs(self):
         degrees = DATA / "las/real/autzen-dd.las"
         metres = DATA / "las/real/autzen-utm.las"

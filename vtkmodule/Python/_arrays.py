@@ -42,7 +42,13 @@ def _places(arrays):
         return numpy.ascontiguousarray(places)
     if not {"x", "y", "z"} <= set(arrays):
         raise ValueError("points have 'position', n by 3, or 'x', 'y' and 'z'")
-    return numpy.stack([_plain(axis, arrays[axis], numpy.float64) for axis in "xyz"], axis=1)
+    axes = [_plain(axis, arrays[axis], numpy.float64) for axis in "xyz"]
+    shapes = [axis.shape for axis in axes]
+    if len(shapes[0]) != 1 or len(set(shapes)) != 1:
+        raise ValueError(f"'x', 'y' and 'z' have one dimension and one length, not the shapes "
+                         f"{', '.join(map(str, shapes))}; flatten grids with .ravel(), the other "
+                         f"attributes, too")
+    return numpy.stack(axes, axis=1)
 
 
 def _column(name, values, count):

@@ -93,7 +93,7 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
   install(FILES ${package_files} DESTINATION "${pointfront_python_folder}/pointfront"
     COMPONENT "${pointfront_python_component}")
   if (POINTFRONT_BUILD_TESTING)
-    set(python_tests Controls Gate Package Points Waiting Without_VTK Writing)
+    set(python_tests Controls Gate Package Points Refusals Waiting Without_VTK Writing)
     if (POINTFRONT_REMOTE)
       list(APPEND python_tests Addresses)
     endif ()

@@ -70,9 +70,18 @@ OVERLAY = f"""
 
 def colours_of(path):
     """Returns the attributes that the first store can be coloured by."""
-    names = [attribute["name"] for attribute in described(path)["attributes"]]
+    names = []
+    for attribute in described(path)["attributes"]:
+        name, components = attribute["name"], attribute["components"]
+        whole = components == 1 or name in ("rgb", "normal")  # others have no colours of their own
+        names += [name] if whole else [f"{name}[{i}]" for i in range(components)]
     computed = ["elevation"] + (["horizontality"] if "normal" in names else [])
     return names + [name for name in computed if name not in names]
+
+
+def may_choose(value, offered, start):
+    """Whether a client's value is "", one that the page offers, or the one that it started with."""
+    return isinstance(value, str) and (not value or value in offered or value == start)
 
 
 def classes_of(paths):

@@ -7,7 +7,7 @@ import math
 import threading
 
 from ._controls import (CHOSEN_BY_CLIENTS, CLEAR, OVERLAY, POINT_SIZES, TECHNIQUES, TOGGLE, TOOLS,
-                        Classes, Marks, colours_of, legend_state)
+                        Classes, Marks, colours_of, legend_state, may_choose)
 from ._errors import PointFrontError
 
 try:
@@ -94,6 +94,7 @@ class CloudPage:
         self._camera = None  # that of the last frame
         if "style" not in self._options and "quality" not in self._options:  # they choose their own
             self._options.setdefault("technique", TECHNIQUES[0])
+        self._start = dict(self._options)  # may be chosen, too, if the page does not offer it
         self._classes = Classes(paths)
         self.view = RemoteView(paths, self._arguments(), self._tell)
         self.server = get_server(f"pointfront-{next(_count)}", client_type="vue3")
@@ -175,13 +176,15 @@ class CloudPage:
         return words
 
     def _choose(self, colour, technique, point_size, **_):
-        known = self._options.values()  # the start's, too, which the page may not offer
-        for chosen, offered in ((colour, self._colours), (technique, TECHNIQUES),
-                                (point_size, POINT_SIZES)):
-            if chosen and chosen not in offered and chosen not in known:
-                return
-        chosen = {**self._options, "color-by": colour, "technique": technique,
-                  "point-size": point_size}
+        chosen = dict(self._options)
+        for name, option, value, offered in (
+                ("colour", "color-by", colour, self._colours),
+                ("technique", "technique", technique, TECHNIQUES),
+                ("point_size", "point-size", point_size, POINT_SIZES)):
+            if may_choose(value, offered, self._start.get(option)):
+                chosen[option] = value
+            else:  # others see what is drawn
+                self.server.state[name] = self._options.get(option, "")
         if any(chosen[name] != self._options.get(name, "") for name in chosen):
             self._options = chosen
             self._draw_anew()

@@ -17,13 +17,29 @@ FLAGS = ("edl",)
 INTERRUPTED = 130  # an exit status
 
 
+def _port(text):
+    number = int(text)
+    if not 0 <= number <= 65535:
+        raise ValueError
+    return number
+
+
+_port.__name__ = "port (0 to 65535)"  # argparse's messages name it
+
+
+def address_of(host, port):
+    """The address of a page; IPv6 stands in brackets."""
+    name = f"[{host}]" if ":" in host and not host.startswith("[") else host
+    return f"http://{name}:{port}/"
+
+
 def parser():
     made = argparse.ArgumentParser(
         prog="pointfront serve",
         description="A page with a view of stores, drawn here in software: no display, no OpenGL. "
                     "All who open it see the same view. Options as of `pointfront render`.")
     made.add_argument("stores", nargs="+", metavar="STORE")
-    made.add_argument("--port", type=int, default=8080, help="8080; 0: any free one")
+    made.add_argument("--port", type=_port, default=8080, help="8080; 0: any free one")
     made.add_argument("--host", default="localhost",
                       help="whom to listen to: localhost, or 0.0.0.0 for other machines; the whole "
                            "printed address opens the view, and nothing is encrypted")
@@ -77,7 +93,7 @@ def main(arguments):
 
         def say(**_):
             end_by_signals()
-            where = f"http://{chosen.host}:{page.server.port}/?{page.query}"
+            where = f"{address_of(chosen.host, page.server.port)}?{page.query}"
             print(f"pointfront serve: {where} (Ctrl-C ends it)", flush=True)
             if chosen.open:
                 import webbrowser

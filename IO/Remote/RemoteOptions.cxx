@@ -160,7 +160,11 @@ Result<StoreAccess> storeAccess()
     const auto found = values->find("region");
     access.region = found != values->end() ? found->second : "us-east-1";
   }
-  if (const std::string no = setting("AWS_NO_SIGN_REQUEST"); !no.empty() && no != "NO" && no != "0")
+  // The words of `pointfront cluster build`.
+  std::string anonymous = setting("AWS_NO_SIGN_REQUEST");
+  std::transform(anonymous.begin(), anonymous.end(), anonymous.begin(),
+    [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  if (anonymous == "yes" || anonymous == "true" || anonymous == "1")
   {
     access.key.clear();
   }

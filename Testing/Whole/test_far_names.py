@@ -7,13 +7,14 @@ import sys
 import unittest
 import urllib.parse
 
-from tool import ToolTest
+from tool import ToolTest, pointfront
 from virtual_clouds import Tile, item, write_list
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "Support"))
 
 # pylint: disable=wrong-import-position
 from far_server import FarServer
+from signature_v4 import KEY, KEY_ID
 
 HERE = "127.0.0.1"
 NAMES = ("plain", "with blank", "ha#sh", "que?ry", "per%20cent", "100%", "\u00fcml\u00e4ut",
@@ -47,6 +48,20 @@ class FarNames(ToolTest):
         self.succeed("export", cloud, "-o", out, "--force",
                      environment={**self.environment, **more})
         return sorted(out.read_text().splitlines())
+
+    def test_words_for_requests_without_signature(self):
+        """`cluster build` and the tool take the same ones."""
+        keys = {"AWS_ACCESS_KEY_ID": KEY_ID, "AWS_SECRET_ACCESS_KEY": KEY,
+                "AWS_REGION": "eu-central-1", "AWS_ENDPOINT_URL": self.origin}
+        for words, status in ((("no", "false", "0", "False", "NO", ""), 0),
+                              (("yes", "true", "1", "True", "YES"), 1)):
+            for word in words:
+                self.server.requests.clear()
+                told = pointfront("info", "s3://~s3/site/tiles/plain.copc.laz", environment={
+                    **self.environment, **keys, "AWS_NO_SIGN_REQUEST": word})
+                self.assertEqual(told.status, status, (word, told))
+                signed = [seen for seen in self.server.requests if seen["authorization"]]
+                self.assertEqual(bool(signed), status == 0, word)
 
     def write(self, kind, name):
         """A list of that kind on the site that names one file. The list's name."""

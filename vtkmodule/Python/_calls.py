@@ -56,6 +56,10 @@ def _count_32(number):
     return whole_number(number, (1 << 32) - 1)
 
 
+def _node_points(number):
+    return whole_number(number, 1 << 20, least=256)
+
+
 def _threads(number):
     return whole_number(number, 1024)
 
@@ -84,13 +88,15 @@ def _depth(bits):
 _OPTIONS = {
     "overwrite": bool, "skip_faulty": bool, "skip_faulty_files": bool,
     "memory_limit": whole_number, "number_of_threads": _threads,
-    "temporary_folder": os.fsdecode, "node_points": _count_32, "precision": _step,
+    "temporary_folder": os.fsdecode, "node_points": _node_points, "precision": _step,
     "color_depth": _depth, "crs": os.fsdecode, "assumed_crs": os.fsdecode,
     "normals_neighbors": _count_32, "normals_radius": _real, "normals_error": _real,
     "normals_classes": _class_numbers, "curvature": bool, "splat_radius": bool,
     "local_height": bool, "local_height_radius": _real, "height_above_ground": bool,
     "ground_cell": _real, "attribute_from": _paths, "preview": bool,
     "preview_points": whole_number}
+
+_NEEDS = {"local_height_radius": "local_height", "ground_cell": "height_above_ground"}
 
 
 def _plain(options):
@@ -103,6 +109,9 @@ def _plain(options):
         if value is not None:
             key = "skip_faulty" if name == "skip_faulty_files" else name
             plain[key] = option(name, _OPTIONS[name], value)
+    for name, wanted in _NEEDS.items():
+        if name in plain and not plain.get(wanted):
+            raise ValueError(f"{name} says nothing without {wanted}=True")
     return plain
 
 
@@ -181,8 +190,8 @@ def index(las, side=None, *, overwrite=False, node_points=16384):
     Raises PointFrontError; KeyboardInterrupt at once. Other threads run meanwhile.
     """
     path = os.fsdecode(las)
-    target = os.fsdecode(side) if side is not None else path + ".pfindex"
-    points = option("node_points", _count_32, node_points)
+    target = written(os.fsdecode(side) if side is not None else path + ".pfindex")
+    points = option("node_points", _node_points, node_points)
     warn(f"{path}: {text}" for text in
          _kernel.index(path, target, overwrite, points)["warnings"])
     return target

@@ -34,7 +34,11 @@ class Picture:
 
     def save(self, path):
         """Write the PNG file."""
-        pathlib.Path(_png_name(path)).write_bytes(self.png)
+        path = _png_name(path)
+        try:
+            pathlib.Path(path).write_bytes(self.png)
+        except OSError as problem:
+            raise PointFrontError(f"'{path}' cannot be written: {problem.strerror}") from problem
 
     @property
     def pixels(self):

@@ -84,11 +84,11 @@ def _encoded(text):
     return None if text is None else _kernel.whole(text)
 
 
-def whole_number(number, most=_MOST):
-    """A number from 0 to `most`, as int."""
+def whole_number(number, most=_MOST, least=0):
+    """A number from `least` to `most`, as int."""
     number = operator.index(number)
-    if not 0 <= number <= most:
-        raise ValueError(f"{number} is none of 0 to {most}")
+    if not least <= number <= most:
+        raise ValueError(f"{number} is none of {least} to {most}")
     return number
 
 

@@ -86,7 +86,7 @@ class Package(unittest.TestCase):
         self.assertEqual(again.points_stored, 1065)
 
     def test_regions(self):
-        pointfront.build(SMALL, self.folder / "a.pfront", node_points=64)
+        pointfront.build(SMALL, self.folder / "a.pfront", node_points=256)
         with pointfront.open(self.folder / "a.pfront") as cloud:
             everything = cloud.points()
             xyz = everything["position"]

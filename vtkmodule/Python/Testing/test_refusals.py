@@ -42,6 +42,20 @@ class Refusals(unittest.TestCase):
         self.assertEqual(len(position), 5000)
         self.assertEqual(set(position[:, 2]), {7.0})
 
+    def test_an_option_that_would_do_nothing_is_refused(self):
+        xyz = {"position": numpy.zeros((3, 3))}
+        for options, says in (({"local_height_radius": 2.0}, "local_height=True"),
+                              ({"ground_cell": 2.0, "height_above_ground": False}, "above_ground"),
+                              ({"node_points": 255}, "node_points.*256")):
+            with self.assertRaisesRegex(ValueError, says):
+                pointfront.build(xyz, self.folder / "none.pfront", **options)
+        with self.assertRaisesRegex(ValueError, "node_points.*256"):
+            pointfront.index(self.folder / "none.las", node_points=16)
+
+    def test_a_picture_without_a_folder_is_an_error_of_the_package(self):
+        with self.assertRaisesRegex(pointfront.PointFrontError, "nodir/x.png' cannot be written"):
+            self.cloud.screenshot(self.folder / "nodir/x.png", size=(16, 16))
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

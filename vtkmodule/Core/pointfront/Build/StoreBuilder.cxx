@@ -1,6 +1,7 @@
 #include "pointfront/Build/StoreBuilder.h"
 
 #include "pointfront/Base/CpuClock.h"
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Build/SampleRecords.h"
 #include "pointfront/Build/StoreBuild.h"
 #include "pointfront/Build/StoredColours.h"
@@ -62,13 +63,11 @@ Error StoreBuild::tooLarge() const
   const double extent = std::max({ size.x, size.y, size.z });
   // The next power of ten that leaves a factor of two for axes of different scales.
   const double fitting = std::pow(10.0, std::ceil(std::log10(extent / 2.0e9)));
-  char text[256];
-  std::snprintf(text, sizeof(text),
-    "the points extend over %.9g units, more than 32 bits of steps of %.9g units; a precision of "
-    "%g "
-    "fits, or leave out the points that lie far away",
-    extent, std::min({ space_.grid.scale.x, space_.grid.scale.y, space_.grid.scale.z }), fitting);
-  return makeError(Error::Kind::BadArgument, text);
+  const double step = std::min({ space_.grid.scale.x, space_.grid.scale.y, space_.grid.scale.z });
+  return makeError(Error::Kind::BadArgument,
+    "the points extend over " + numberText(extent, 9) + " units, more than 32 bits of steps of " +
+      numberText(step, 9) + " units; a precision of " + numberText(fitting, 6) +
+      " fits, or leave out the points that lie far away");
 }
 
 Result<void> StoreBuild::cutIntoParts()

@@ -1,9 +1,10 @@
 #include "pointfront/Ingest/GridChoice.h"
 
+#include "pointfront/Base/NumberText.h"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <functional>
 #include <numeric>
 
@@ -21,9 +22,7 @@ bool whole(double v)
 
 std::string number(double v)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.9g", v);
-  return text;
+  return numberText(v, 9);
 }
 
 using Sources = std::vector<std::unique_ptr<PointSource>>;

@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/TileDescription.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Ingest/RecordColumns.h"
 #include "pointfront/Points/GpsTimes.h"
 #include "pointfront/Points/SplatRadius.h"
@@ -9,7 +10,6 @@
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -191,12 +191,11 @@ void chooseGrid(
   }
   if (rounded > 0)
   {
-    char text[160];
-    std::snprintf(text, sizeof text,
-      " do not lie on the grid of the finest; their points are rounded, by at most %.9g, %.9g, "
-      "%.9g units.",
-      0.5 * whole.grid.scale.x, 0.5 * whole.grid.scale.y, 0.5 * whole.grid.scale.z);
-    whole.warnings.push_back(countOf(rounded, stores) + text);
+    const glm::dvec3 most = 0.5 * whole.grid.scale;
+    whole.warnings.push_back(countOf(rounded, stores) +
+      " do not lie on the grid of the finest; their points are rounded, by at most " +
+      numberText(most.x, 9) + ", " + numberText(most.y, 9) + ", " + numberText(most.z, 9) +
+      " units.");
   }
 }
 
@@ -271,12 +270,9 @@ void compareDistances(StoreDescription& whole, const Tiles& tiles)
   const double extent = diagonalOf(whole.bounds);
   if (together > 0.0 && extent > far * together)
   {
-    char text[200];
-    std::snprintf(text, sizeof text,
-      "Its stores lie far apart: they extend over %.6g units, and in a row they would be %.6g "
-      "units long; in a picture of all they are small.",
-      extent, together);
-    whole.warnings.push_back(text);
+    whole.warnings.push_back("Its stores lie far apart: they extend over " + numberText(extent, 6) +
+      " units, and in a row they would be " + numberText(together, 6) +
+      " units long; in a picture of all they are small.");
   }
 }
 

@@ -66,7 +66,11 @@ std::string TilesBuild::tilePath(const TileIndex& tile) const
 /// Path or address of a store that is done.
 std::string TilesBuild::storePath(const std::string& file) const
 {
-  const std::string& place = request_.published.empty() ? request_.folder : request_.published;
+  std::string place = request_.published.empty() ? request_.folder : request_.published;
+  while (isAddress(place) && place.back() == '/') // that of a whole bucket is "s3://NAME/"
+  {
+    place.pop_back();
+  }
   return place + "/tiles/" + file;
 }
 

@@ -10,6 +10,7 @@ import shutil
 import tempfile
 import threading
 import time
+import urllib.parse
 from concurrent.futures import ThreadPoolExecutor
 
 from ._errors import PointFrontError
@@ -26,6 +27,11 @@ _known = {}  # workplaces by address and run
 
 def is_bucket(output):
     return output.startswith("s3://")
+
+
+def encoded(key):
+    """A key as a part of an address: letters of all scripts stay readable."""
+    return re.sub(r"[^\w/!$&'()*+,;=:@~.-]", lambda found: urllib.parse.quote(found[0]), key)
 
 
 def _client():
@@ -67,8 +73,10 @@ class Bucket:
         if not found:
             raise PointFrontError(f"{address}: no bucket's address: s3://BUCKET/PREFIX is expected")
         self.bucket, self.prefix = found[1], found[2].strip("/")
-        self.address = f"s3://{self.bucket}/{self.prefix}".rstrip("/")
-        self.name = self.address.rsplit("/", maxsplit=1)[-1]
+        self.output = f"s3://{self.bucket}/{self.prefix}".rstrip("/")
+        # The tool takes keys out of addresses, where blanks and the like are percent-encoded.
+        self.address = f"s3://{self.bucket}/{encoded(self.prefix)}".rstrip("/")
+        self.name = self.output.rsplit("/", maxsplit=1)[-1]
         self.session, self.client, self.region = _client()
         payer = os.environ.get("AWS_REQUEST_PAYER")
         self.extra = {"RequestPayer": payer} if payer else {}
@@ -183,6 +191,8 @@ class Workplace:
 
     def public(self, text):
         """The tool's words with the bucket's names."""
+        text = text.replace(self.path(self.collection),
+                            f"{self.address}/{encoded(self.collection)}")
         return text.replace(self.folder, self.address)
 
     def log(self, name, text):

@@ -336,7 +336,7 @@ def _output(output, rest):
     if not _bucket.is_bucket(output):
         folder = os.path.abspath(output)
         return folder, ["-o", folder]
-    address = _bucket.Bucket(output).address
+    address = _bucket.Bucket(output).output
     words = " ".join(rest).replace("=", " ")
     if "--decode once" in words:
         raise PointFrontError(

@@ -121,6 +121,25 @@ class BucketBuild(unittest.TestCase):
         del self.server.objects["countries/land/tiles/9_9-notes.pfront"]
         self.assertEqual(digests(self.server.objects), self.expected)
 
+    def test_the_root_and_keys_that_need_encoding(self):
+        """All tiles were built, and then none was found."""
+        bucket = BucketServer.BUCKET
+        for key, told in (("", f"s3://{bucket}/{bucket}.pfcollection"),
+                          ("mit blank", f"s3://{bucket}/mit%20blank/mit%20blank.pfcollection"),
+                          ("x%20y", f"s3://{bucket}/x%2520y/x%2520y.pfcollection")):
+            with self.subTest(key=key):
+                self.server.objects.clear()
+                process = self.begun("--json", output=f"s3://{bucket}/{key}")
+                out, said = process.communicate(timeout=240)
+                self.assertEqual(process.returncode, 0, said)
+                self.assertEqual(json.loads(out)["collection"], told)
+                before = f"{key}/" if key else ""
+                self.assertEqual({name.removeprefix(before) for name in self.server.objects
+                                  if name.endswith(".pfront")},
+                                 {name for name in self.expected if name.endswith(".pfront")})
+                info = json.loads(self.tool("info", told, "--json", **self.environment))
+                self.assertEqual(info["points"], 60000)
+
     def test_a_failed_upload_is_tried_again_or_told(self):
         times = {}
 

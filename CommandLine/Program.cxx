@@ -43,6 +43,34 @@ std::string versionText()
   return text;
 }
 
+/// An address for which an option takes what it writes: a path of that text would be a folder
+/// "s3:", in which all went well. Empty: there is none.
+std::string addressAsOutput(const CLI::App& command)
+{
+  for (const char* const name : { "--output", "--stats", "--picture", "--frames-csv", "--store" })
+  {
+    const CLI::Option* const option = command.get_option_no_throw(name);
+    const std::string value =
+      option != nullptr && option->count() > 0 ? option->results().back() : std::string();
+    if (isAddress(value))
+    {
+      const bool tiles = command.get_name() == "build" && command.count("--tiles") > 0;
+      return std::string(name) + ": '" + value + "' is an address, and this writes files of this " +
+        "machine only; " +
+        (tiles ? "tiles are built into a bucket by python3 -m pointfront cluster build"
+               : "write a file and upload that");
+    }
+  }
+  for (const CLI::App* below : command.get_subcommands())
+  {
+    if (std::string told = addressAsOutput(*below); !told.empty())
+    {
+      return told;
+    }
+  }
+  return {};
+}
+
 /// All printed text has arrived: a full disk behind stdout is known here at the latest.
 Result<void> flushedOutput()
 {
@@ -214,7 +242,8 @@ int Program::run(int argc, char** words)
   try
   {
     app_.parse(argc, argv);
-    if (const std::string told = optionAsValue(app_); !told.empty())
+    const std::string lacking = optionAsValue(app_);
+    if (const std::string told = lacking.empty() ? addressAsOutput(app_) : lacking; !told.empty())
     {
       throw CLI::ValidationError(told);
     }

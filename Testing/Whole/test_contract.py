@@ -160,6 +160,27 @@ class Usage(ToolTest):
             self.assertIn("lacks its value", told.err, words)
         self.assertFalse(pathlib.Path("--edl").exists())
 
+    def test_an_address_is_no_output(self):
+        """A folder "s3:" was made, and what was written there seemed to be in a bucket."""
+        store = self.build(SMALL)
+        before = self.entries()
+        for place in ("s3://bucket/a", "http://localhost:9/a", "https://localhost:9/a"):
+            for words in (("build", SMALL, "-o", f"{place}.pfront"), ("index", SMALL, "-o", place),
+                          ("generate", "--points", "9", "-o", f"{place}.las"),
+                          ("export", store, "-o", f"{place}.las"),
+                          ("export", store, "-o", self.folder / "a.las", "--stats", place),
+                          ("render", store, "-o", f"{place}.png"),
+                          ("bench", store, "--stats", f"{place}.json"),
+                          ("bench", store, "--stats", "a.json", "--frames-csv", f"{place}.csv"),
+                          ("bench", store, "--stats", "a.json", "--picture", f"{place}.png"),
+                          ("view", SMALL, "--store", f"{place}.pfront")):
+                told = self.refuse(2, *words)
+                self.assertIn("is an address", told.err, words)
+            told = self.refuse(2, "build", SMALL, "-o", place, "--tiles")
+            self.assertIn("python3 -m pointfront cluster build", told.err)
+        self.assertEqual(self.entries(), before)
+        self.assertFalse(pathlib.Path("s3:").exists() or pathlib.Path("http:").exists())
+
     def test_an_empty_choice_is_neither_everything_nor_nothing(self):
         store = self.build(SMALL)
         export = ("export", store, "-o", self.folder / "x.las")

@@ -4,7 +4,7 @@ import math
 import os
 
 from . import _arrays, _kernel
-from ._errors import PointFrontError, did_you_mean, warn
+from ._errors import PointFrontError, did_you_mean, warn, written
 from ._queries import box_of, finite, option, whole_number
 
 
@@ -159,7 +159,7 @@ def build(inputs, output, *, structure="octree", refinement="add", layers="auto"
     no points, and for a box that is none; KeyboardInterrupt at
     once when the user interrupts. Nothing is left behind then. Other threads run meanwhile.
     """
-    path = os.fsdecode(output)
+    path = written(os.fsdecode(output))
     request = {"output": path, "structure": _chosen("structure", structure),
                "refinement": _chosen("refinement", refinement),
                "layers": _chosen("layers", layers), "normals": _chosen("normals", normals),

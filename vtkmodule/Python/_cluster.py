@@ -382,6 +382,10 @@ def main(arguments):
         return 0 if arguments[:1] in (["-h"], ["--help"]) else 2
     chosen, rest = parser().parse_known_args(arguments[1:])
     rest = [word for word in rest if word != "--tiles"]
+    if "://" in chosen.output and not _bucket.is_bucket(chosen.output):
+        print(f"pointfront cluster build: --output: '{chosen.output}' is an address: tiles are "
+              "built into a folder or into s3://BUCKET/PREFIX", file=sys.stderr)
+        return 2
     progress = _Progress(chosen.progress)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
     build, client, cluster, keeper = None, None, None, None

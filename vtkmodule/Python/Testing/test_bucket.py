@@ -140,6 +140,13 @@ class BucketBuild(unittest.TestCase):
                 info = json.loads(self.tool("info", told, "--json", **self.environment))
                 self.assertEqual(info["points"], 60000)
 
+    def test_other_addresses_are_no_output(self):
+        process = self.begun(output="http://localhost:9/land")
+        _, said = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 2, said)
+        self.assertIn("s3://BUCKET/PREFIX", said)
+        self.assertFalse(pathlib.Path("http:").exists())
+
     def test_a_failed_upload_is_tried_again_or_told(self):
         times = {}
 

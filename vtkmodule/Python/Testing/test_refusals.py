@@ -42,6 +42,19 @@ class Refusals(unittest.TestCase):
         self.assertEqual(len(position), 5000)
         self.assertEqual(set(position[:, 2]), {7.0})
 
+    def test_an_address_is_no_output(self):
+        xyz = {"position": numpy.zeros((3, 3))}
+        picture = self.cloud.screenshot(size=(16, 16))
+        for place in ("s3://bucket/a", "http://localhost:9/a"):
+            for write in (lambda: pointfront.build(xyz, f"{place}.pfront"),
+                          lambda: pointfront.index("a.las", f"{place}.pfindex"),
+                          lambda: self.cloud.export(f"{place}.las"),
+                          lambda: self.cloud.screenshot(f"{place}.png", size=(16, 16)),
+                          lambda: picture.save(f"{place}.png")):
+                with self.assertRaisesRegex(pointfront.PointFrontError, "is an address.*upload"):
+                    write()
+        self.assertFalse(pathlib.Path("s3:").exists() or pathlib.Path("http:").exists())
+
     def test_an_option_that_would_do_nothing_is_refused(self):
         xyz = {"position": numpy.zeros((3, 3))}
         for options, says in (({"local_height_radius": 2.0}, "local_height=True"),

@@ -247,7 +247,9 @@ Result<void> StreamCommand::answer(const FrameRecord* frame, const nlohmann::ord
   head["camera"] = jsonOf(camera_);
   head["bounds"] = boundsJson(scene_->bounds());
   head.update(further);
-  const std::string line = head.dump() + "\n";
+  // A path may be any bytes.
+  const std::string line =
+    head.dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   bool written = std::fwrite(line.data(), 1, line.size(), stdout) == line.size();
   for (int y = picture.height - 1; frame != nullptr && written && y >= 0; --y)
   {

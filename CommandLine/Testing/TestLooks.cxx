@@ -75,4 +75,24 @@ TEST(PickedPoint, TellsItsClassInWords)
   EXPECT_EQ(jsonOf(point)["rgb"][2], 30);
 }
 
+TEST(PickedPoint, AttributesDoNotTakeThePlaceOfItsNameNumberAndPlace)
+{
+  PickedPoint point;
+  point.store = "a.pfront";
+  point.id = 3;
+  point.position = { 1.0, 2.0, 3.5 };
+  for (const char* const name : { "store", "id", "x", "y", "z" })
+  {
+    point.attributes[name] = 7;
+  }
+  const nlohmann::ordered_json told = jsonOf(point);
+  EXPECT_EQ(told["store"], "a.pfront");
+  EXPECT_EQ(told["id"], 3);
+  EXPECT_EQ(told["z"], 3.5);
+  for (const char* const name : { "store_", "id_", "x_", "y_", "z_" })
+  {
+    EXPECT_EQ(told.value(name, 0), 7) << name;
+  }
+}
+
 } // namespace pointfront

@@ -129,7 +129,10 @@ nlohmann::ordered_json jsonOf(const PickedPoint& point)
   object["x"] = point.position.x;
   object["y"] = point.position.y;
   object["z"] = point.position.z;
-  object.update(point.attributes);
+  for (const auto& [name, value] : point.attributes.items())
+  {
+    object[object.contains(name) ? name + "_" : name] = value;
+  }
   return object;
 }
 

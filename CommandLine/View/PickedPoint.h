@@ -29,7 +29,8 @@ Result<PickedPoint> readPoint(const StoredCloud& store, std::uint64_t id);
 
 /// For people: a line for the position and for each attribute.
 std::string textOf(const PickedPoint& point);
-/// For programs: an object with `store`, `id`, `x`, `y`, `z` and the attributes.
+/// For programs: an object with `store`, `id`, `x`, `y`, `z` and the attributes. An attribute of
+/// one of these names has an underscore at its end.
 nlohmann::ordered_json jsonOf(const PickedPoint& point);
 
 } // namespace pointfront

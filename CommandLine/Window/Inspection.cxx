@@ -15,7 +15,8 @@ const char* const nothingHere = "there is no point under the mouse";
 
 void print(const nlohmann::ordered_json& object)
 {
-  std::printf("%s\n", object.dump().c_str());
+  using Handling = nlohmann::ordered_json::error_handler_t; // a path may be any bytes
+  std::printf("%s\n", object.dump(-1, ' ', false, Handling::replace).c_str());
   std::fflush(stdout);
 }
 } // namespace

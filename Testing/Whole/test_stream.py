@@ -3,6 +3,8 @@
 import contextlib
 import json
 import os
+import pathlib
+import shutil
 import subprocess
 import sys
 import unittest
@@ -57,8 +59,8 @@ class Streams(tool.ToolTest):
         self.store = self.folder / "a.pfront"
         self.succeed("build", CLOUD, "-o", self.store, "--node-points", "256")
 
-    def open(self, *arguments):
-        stream = Stream(self.store, *arguments)
+    def open(self, *arguments, store=None):
+        stream = Stream(store or self.store, *arguments)
         self.addCleanup(stream.process.kill)
         return stream
 
@@ -196,6 +198,18 @@ class Streams(tool.ToolTest):
             after = numpy.frombuffer(pixels, numpy.uint8).reshape(90, 160, 4)
             numpy.testing.assert_array_equal(after, before)
         self.assertIsNone(stream.ask(pick=[-50, 3])[0]["picked"])
+        self.assertEqual(stream.end(), (0, ""))
+
+    def test_a_path_may_be_any_bytes(self):
+        odd = pathlib.Path(os.fsdecode(os.fsencode(self.folder) + b"/\xff.pfront"))
+        shutil.copyfile(self.store, odd)
+        stream = self.open(store=odd)
+        stream.settle(size=[160, 90])
+        told = [stream.ask(pick=[column, row])[0]["picked"]
+                for column in range(0, 160, 12) for row in range(0, 90, 12)]
+        stores = {point["store"] for point in told if point}
+        self.assertEqual(len(stores), 1)
+        self.assertIn("\ufffd.pfront", stores.pop())
         self.assertEqual(stream.end(), (0, ""))
 
     @staticmethod

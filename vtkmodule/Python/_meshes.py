@@ -13,6 +13,8 @@ def mesh_of(arrays):
     """pyvista.PolyData of Cloud.points()'s arrays, which it keeps and does not copy."""
     arrays = dict(arrays)
     mesh = pyvista.PolyData(arrays.pop("position"))
+    if "point_id" in arrays:
+        arrays["point_id_"] = arrays.pop("point_id")
     arrays["point_id"] = arrays.pop("id")
     for name, values in arrays.items():
         mesh.point_data.set_array(values, name[:-1] if name in ("position_", "id_") else name)

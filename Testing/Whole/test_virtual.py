@@ -3,6 +3,7 @@
 import json
 import os
 import pathlib
+import struct
 import sys
 import unittest
 
@@ -214,6 +215,32 @@ class VirtualClouds(ToolTest):
                 refused = self.refuse(1, "render", cloud, "-o", self.folder / "no.png",
                                       "--backend", "software", "--size", "320x240")
                 self.assertIn(word, refused.err)
+
+    def test_a_list_of_stores_with_class_trees_that_lies_is_told(self):
+        """Such stores are all opened with the list, and each is compared with it."""
+        points = bytearray((self.folder / "one.las").read_bytes())
+        begin, _, form, size = struct.unpack_from("<IIBH", points, 96)
+        for number in range(1000):
+            points[begin + number * size + (16 if form > 5 else 15)] = 2
+        (self.folder / "classes.las").write_bytes(points)
+        items = []
+        for name in ("west", "east"):
+            store = self.folder / f"{name}.pfront"
+            self.succeed("build", self.folder / "classes.las", "-o", store)
+            told = self.succeed("info", store, "--json").json
+            self.assertGreater(len(told["layers"]), 1)
+            items.append(item(f"./{store.name}", told["bounds"], told["points"]))
+        right = write_list(self.folder / "right.vpc", items)
+        self.succeed("verify", right)
+        for key, lie, word in (
+                ("pc:count", items[1]["properties"]["pc:count"] + 7, "points, not"),
+                ("proj:bbox", [value + 5000 for value in told["bounds"]], "lie in")):
+            items[1]["properties"], kept = {**items[1]["properties"], key: lie}, \
+                items[1]["properties"]
+            refused = self.refuse(1, "verify", write_list(self.folder / "lie.vpc", items))
+            self.assertIn(word, refused.err)
+            self.assertIn("east.pfront", refused.err)
+            items[1]["properties"] = kept
 
     def test_other_systems_and_lists_that_are_none(self):
         items = self.items()

@@ -14,8 +14,9 @@ namespace pointfront
 Result<std::shared_ptr<const StoredCloud>> ListedCloud::open(
   const std::string& path, std::vector<ListedTile> tiles, std::vector<std::string> warnings)
 {
+  const std::vector<ListedTile> told = tiles;
   std::vector<std::string> addresses;
-  for (const ListedTile& tile : tiles)
+  for (const ListedTile& tile : told)
   {
     addresses.push_back(tile.address);
   }
@@ -23,7 +24,8 @@ Result<std::shared_ptr<const StoredCloud>> ListedCloud::open(
     ListedTiles::make(path, std::move(tiles), warnings);
   if (!listed && listed.error().kind == Error::Kind::Unsupported)
   {
-    return TiledCloud::open(path, addresses, std::move(warnings));
+    return TiledCloud::open(path, addresses, std::move(warnings),
+      [&told](std::size_t tile, const StoreDescription& own) { return told[tile].compare(own); });
   }
   if (!listed)
   {

@@ -50,6 +50,29 @@ glm::dvec3 ListedTile::rounding() const
   return glm::dvec3(share * std::max({ size.x, size.y, size.z }));
 }
 
+Error ListedTile::unlike(const std::string& what) const
+{
+  return makeError(Error::Kind::Unreadable,
+    "'" + publicForm(address) + "' is not what the list says: " + what +
+      "; write the list again, or open the tiles by a list of stores (.pfronts)");
+}
+
+Result<void> ListedTile::compare(const StoreDescription& own) const
+{
+  if (own.pointCount != points)
+  {
+    return unlike(
+      "it has " + std::to_string(own.pointCount) + " points, not " + std::to_string(points));
+  }
+  const glm::dvec3 room = rounding();
+  const Bounds box{ bounds.low - room, bounds.high + room };
+  if (!own.bounds.empty() && !(box.contains(own.bounds.low) && box.contains(own.bounds.high)))
+  {
+    return unlike("its points lie in " + boxText(own.bounds) + ", not in " + boxText(bounds));
+  }
+  return {};
+}
+
 struct ListedTiles::Slot
 {
   enum class State
@@ -334,35 +357,19 @@ Result<std::shared_ptr<const StoredCloud>> ListedTiles::openCloud(std::size_t ti
   return StoredCloudFormats::ofProcess().openWhole(address);
 }
 
-Error ListedTiles::unlike(std::size_t tile, const std::string& what) const
-{
-  return makeError(Error::Kind::Unreadable,
-    "'" + publicForm(tiles_[tile].address) + "' is not what the list says: " + what +
-      "; write the list again, or open the tiles by a list of stores (.pfronts)");
-}
-
 /// Its part in the whole, if it is what the list says.
 Result<TileDescription::Part> ListedTiles::partOf(std::size_t tile, const StoredCloud& cloud) const
 {
   const ListedTile& listed = tiles_[tile];
   const StoreDescription& own = cloud.description();
-  if (own.pointCount != listed.points)
+  if (Result<void> same = listed.compare(own); !same)
   {
-    return unlike(tile,
-      "it has " + std::to_string(own.pointCount) + " points, not " + std::to_string(listed.points));
-  }
-  const glm::dvec3 room = listed.rounding();
-  const Bounds box{ listed.bounds.low - room, listed.bounds.high + room };
-  if (!own.bounds.empty() && !(box.contains(own.bounds.low) && box.contains(own.bounds.high)))
-  {
-    return unlike(
-      tile, "its points lie in " + boxText(own.bounds) + ", not in " + boxText(listed.bounds));
+    return same.error();
   }
   if (cloud.hierarchy()->nodeCount() > mostNodes(tile))
   {
-    return unlike(tile,
-      "it has " + std::to_string(cloud.hierarchy()->nodeCount()) +
-        " nodes, more than a tile of so many points should have");
+    return listed.unlike("it has " + std::to_string(cloud.hierarchy()->nodeCount()) +
+      " nodes, more than a tile of so many points should have");
   }
   Result<TileDescription> described = TileDescription::of(path_, { &whole_, &own }, {});
   if (!described)
@@ -373,7 +380,7 @@ Result<TileDescription::Part> ListedTiles::partOf(std::size_t tile, const Stored
   if (!(both.schema == whole_.schema) || both.splatRadiusBase != whole_.splatRadiusBase ||
     both.layers.size() != whole_.layers.size() || cloud.hierarchy()->roots().size() > 1)
   {
-    return unlike(tile, "it has other attributes or layers than the tiles that are open");
+    return listed.unlike("it has other attributes or layers than the tiles that are open");
   }
   TileDescription::Part part = std::move(described->parts[1]);
   part.placing = TilePlacing(own.grid, whole_.grid);

@@ -25,6 +25,9 @@ struct ListedTile
 
   /// A point beside `bounds` by so little is in them: lists round.
   glm::dvec3 rounding() const;
+  /// Whether an opened file has the points and the box that the list tells. Errors  Unreadable.
+  Result<void> compare(const StoreDescription& own) const;
+  Error unlike(const std::string& what) const;
 };
 
 /// The tiles of a list that tells where they lie. Some are opened with the list, one of each kind
@@ -78,7 +81,6 @@ private:
   Result<void> describe(const std::vector<std::size_t>& first, std::vector<std::string> warnings);
   Result<std::shared_ptr<const StoredCloud>> openCloud(std::size_t tile) const;
   Result<TileDescription::Part> partOf(std::size_t tile, const StoredCloud& cloud) const;
-  Error unlike(std::size_t tile, const std::string& what) const;
 
   std::string path_;
   std::vector<ListedTile> tiles_;

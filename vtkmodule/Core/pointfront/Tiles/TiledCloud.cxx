@@ -22,8 +22,8 @@ namespace
 constexpr std::size_t openingsAtOnce = 16;
 } // namespace
 
-Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
-  const std::string& path, const std::vector<std::string>& files, std::vector<std::string> warnings)
+Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(const std::string& path,
+  const std::vector<std::string>& files, std::vector<std::string> warnings, const TileCheck& check)
 {
   raiseOpenFiles(files.size());
   std::vector<Result<std::shared_ptr<const StoredCloud>>> opened(
@@ -33,6 +33,12 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::open(
   {
     const StopOfReads stop(stopped);
     opened[i] = StoredCloudFormats::ofProcess().openWhole(files[i]);
+    const Result<void> right =
+      opened[i] && check ? check(i, (*opened[i])->description()) : Result<void>();
+    if (!right)
+    {
+      opened[i] = right.error();
+    }
   };
   if (std::any_of(files.begin(), files.end(), [](const auto& file) { return isAddress(file); }))
   {

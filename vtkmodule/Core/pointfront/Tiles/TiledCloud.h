@@ -4,6 +4,8 @@
 #include "pointfront/Tiles/TileDescription.h"
 #include "pointfront/Tiles/TileTable.h"
 
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <utility>
@@ -35,9 +37,13 @@ public:
   ///         of one name with different numbers of components; NoMemory: 2^32 nodes and more.
   static Result<std::shared_ptr<const StoredCloud>> make(const std::string& path, Tiles tiles,
     std::vector<std::string> warnings = {}, std::uint64_t overviewPoints = defaultOverviewPoints);
-  /// Opens them all, in parallel. Errors: those that cannot be opened, the first three by name.
+  /// Refuses the tile of that number among the files, or does not.
+  using TileCheck = std::function<Result<void>(std::size_t tile, const StoreDescription& own)>;
+  /// Opens them all, in parallel. Errors: those that cannot be opened or that the check refuses,
+  /// the first three by name.
   static Result<std::shared_ptr<const StoredCloud>> open(const std::string& path,
-    const std::vector<std::string>& files, std::vector<std::string> warnings = {});
+    const std::vector<std::string>& files, std::vector<std::string> warnings = {},
+    const TileCheck& check = {});
 
   const StoreDescription& description() const override { return described_.whole; }
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }

@@ -33,12 +33,19 @@ CancelSignal::CancelSignal(Mode mode)
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, &oldInterrupt_);
   sigaction(SIGTERM, &action, &oldTerminate_);
+  // A terminal that closes; `nohup` wants the command to go on.
+  sigaction(SIGHUP, nullptr, &oldHangUp_);
+  if (oldHangUp_.sa_handler != SIG_IGN)
+  {
+    sigaction(SIGHUP, &action, nullptr);
+  }
 }
 
 CancelSignal::~CancelSignal()
 {
   sigaction(SIGINT, &oldInterrupt_, nullptr);
   sigaction(SIGTERM, &oldTerminate_, nullptr);
+  sigaction(SIGHUP, &oldHangUp_, nullptr);
 }
 
 bool CancelSignal::requested()

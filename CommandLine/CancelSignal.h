@@ -5,8 +5,8 @@
 namespace pointfront
 {
 
-/// SIGINT and SIGTERM while a command runs. Objects may be nested; the handlers of before come back
-/// when one goes.
+/// SIGINT, SIGTERM and, unless it is ignored, SIGHUP while a command runs. Objects may be nested;
+/// the handlers of before come back when one goes.
 /// Modes    Finish: the signal only sets a flag; the operation sees it at its next progress report,
 /// or
 ///          while it waits for a server, stops and removes what it had begun (builds, exports).
@@ -31,6 +31,7 @@ public:
 private:
   struct sigaction oldInterrupt_;
   struct sigaction oldTerminate_;
+  struct sigaction oldHangUp_;
 };
 
 } // namespace pointfront

@@ -15,7 +15,7 @@ enum ExitStatus : int
   Done = 0,
   Failed = 1, ///< the operation failed: one line on stderr says what, where, what to try
   WrongUsage = 2, ///< unknown or contradictory option: nothing was begun
-  Interrupted = 130 ///< cancelled by SIGINT or SIGTERM; nothing is left behind
+  Interrupted = 130 ///< cancelled by SIGINT, SIGTERM or SIGHUP; nothing is left behind
 };
 
 /// One word after `pointfront`: declares its options, then runs once.

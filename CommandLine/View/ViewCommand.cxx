@@ -7,6 +7,7 @@
 #include "StoreCompany.h"
 #include "ViewWindow.h"
 
+#include <csignal>
 #include <optional>
 
 namespace pointfront
@@ -41,6 +42,7 @@ Result<void> ViewCommand::run()
     }
     return CancelSignal::requested();
   };
+  std::signal(SIGPIPE, SIG_IGN); // a closed stdout ends the window, which then removes its store
   request_.direction = *namedView(view_);
   if (!cameraPath_.empty())
   {

@@ -223,7 +223,7 @@ bool ViewWindow::follow()
 
 Redraw::Pause ViewWindow::redraw()
 {
-  if (files_.holdsFiles() && request_.signalled())
+  if ((files_.holdsFiles() && request_.signalled()) || std::ferror(stdout) != 0)
   {
     interactor_->TerminateApp();
     return {};
@@ -425,6 +425,11 @@ void pointfrontShowWindow(const ViewRequest& request, Result<void>& outcome)
   if (outcome)
   {
     window.run();
+    if (std::ferror(stdout) != 0)
+    {
+      outcome = makeError(
+        Error::Kind::Unwritable, "the standard output is closed, and the window ended with it");
+    }
   }
   if (request.signalled()) // which may have made something fail, too
   {

@@ -3,6 +3,7 @@
 import os
 import pathlib
 import shutil
+import signal
 import time
 import unittest
 
@@ -17,10 +18,10 @@ class Files(WindowTest):
     def temporary(self):
         return sorted(pathlib.Path(self.folder / "tmp").glob("pointfront-view-*"))
 
-    def show(self, *arguments):
+    def show(self, *arguments, **options):
         (self.folder / "tmp").mkdir(exist_ok=True)
         window = Window(self.folder, *arguments,
-                        environment=dict(os.environ, TMPDIR=str(self.folder / "tmp")))
+                        environment=dict(os.environ, TMPDIR=str(self.folder / "tmp")), **options)
         self.addCleanup(lambda: window.process.poll() is None and window.close())
         return window
 
@@ -123,15 +124,28 @@ class Files(WindowTest):
 
     def test_a_signal_leaves_nothing_behind(self):
         self.succeed("generate", "--points", "5000000", "-o", self.folder / "large.laz")
-        for wait in (0.0, 2.0):
+        for wait, number in ((0.0, signal.SIGTERM), (2.0, signal.SIGTERM), (1.0, signal.SIGHUP)):
             window = self.show(self.folder / "large.laz")
             self.assertEqual(len(self.temporary()), 1)
             time.sleep(wait)
-            window.process.terminate()
+            window.process.send_signal(number)
             status = window.process.wait(PATIENCE)
             self.assertEqual(status, 130, window.process.stderr.read())
             self.assertEqual(self.temporary(), [])
             window.close()
+
+    def test_a_closed_stdout_leaves_nothing_behind(self):
+        self.succeed("export", self.store, "-o", self.folder / "trim.laz")
+        reading, writing = os.pipe()
+        window = self.show(self.folder / "trim.laz", stdout=writing)
+        os.close(writing)
+        self.assertEqual(len(self.temporary()), 1)
+        os.close(reading)
+        window.hands.press("v")
+        self.assertEqual(window.process.wait(PATIENCE), 1)
+        self.assertIn("standard output is closed", window.process.stderr.read().decode())
+        self.assertEqual(self.temporary(), [])
+        window.close()
 
     def test_a_build_that_fails_says_so_and_the_first_look_stays(self):
         laz = self.folder / "cut.laz"

@@ -22,11 +22,11 @@ PATIENCE = 300 * SLOWNESS  # seconds until a test that hangs is ended
 class Window:
     """The tool's window, and a person before it."""
 
-    def __init__(self, folder, *arguments, environment=None):
+    def __init__(self, folder, *arguments, environment=None, stdout=subprocess.PIPE):
         self.folder = folder
         self.process = subprocess.Popen(
             [TOOL, "view", *map(str, arguments), "--size", f"{SIZE[0]}x{SIZE[1]}"], cwd=folder,
-            stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+            stdin=subprocess.DEVNULL, stdout=stdout, stderr=subprocess.PIPE,
             env=environment)
         self.lines = queue.Queue()
         self.reading = threading.Thread(target=self._read)
@@ -35,7 +35,7 @@ class Window:
         self.hands.move(*CENTRE)  # without a window manager keys go where the mouse is
 
     def _read(self):
-        for line in self.process.stdout:
+        for line in self.process.stdout or ():
             self.lines.put(line.decode().rstrip("\n"))
 
     def said(self):
@@ -79,7 +79,8 @@ class Window:
         self.process.wait()
         self.reading.join()
         self.hands.close()
-        self.process.stdout.close()
+        if self.process.stdout is not None:
+            self.process.stdout.close()
         self.process.stderr.close()
 
 

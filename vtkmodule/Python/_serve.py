@@ -52,9 +52,9 @@ def parser():
 
 
 def end_by_signals():
-    """From now on Ctrl-C and SIGTERM end the event loop that runs, between two of its callbacks:
-    Python's own interrupt comes anywhere, and what it leaves locked can keep the process for ever.
-    The second one ends the process at once; the tool ends with its input.
+    """From now on Ctrl-C, SIGTERM and SIGHUP end the event loop that runs, between two of its
+    callbacks: Python's own interrupt comes anywhere, and what it leaves locked can keep the process
+    for ever. The second one ends the process at once; the tool ends with its input.
     """
     loop = asyncio.get_running_loop()
     told = []
@@ -67,8 +67,9 @@ def end_by_signals():
             signal.signal(number, lambda *_: os._exit(INTERRUPTED))
         raise KeyboardInterrupt
 
-    numbers = [number for number in (signal.SIGINT, signal.SIGTERM)
-               if signal.getsignal(number) != signal.SIG_IGN]  # as a shell's job in the background
+    # Ignored ones stay so, as those of a shell's job in the background.
+    numbers = [number for number in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
+               if signal.getsignal(number) != signal.SIG_IGN]
     for number in numbers:
         loop.add_signal_handler(number, end)
 

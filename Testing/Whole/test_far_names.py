@@ -178,6 +178,16 @@ class FarNames(ToolTest):
             with self.subTest(kind, name=name):
                 self.assert_refused(self.write(kind, name), "addresses", name.split("//")[-1])
 
+    def test_an_epoch_is_one_of_a_collection(self):
+        """A file on a disk was refused, and one behind an address gave all its points."""
+        for made in ("tiles/plain.copc.laz", self.write("pfronts", "tiles/plain.copc.laz"),
+                     self.write("vpc", "tiles/plain.copc.laz")):
+            for place in (self.site, self.folder / "site"):
+                with self.subTest(made, place=place):
+                    told = self.refuse(1, "export", f"{place}/{made}", "--epoch", "2024", "-o",
+                                       self.folder / "none.csv", environment=self.environment)
+                    self.assertIn("is no collection", told.err)
+
     def test_the_mode_of_a_folder_that_was_there_stays(self):
         """The cache may lie in a folder that others use; what it makes there is for its user."""
         shared = self.folder / "shared"

@@ -23,6 +23,12 @@ constexpr FirstBytes firstOfFar{ std::size_t(64) << 10, std::size_t(256) << 10 }
 /// The roots of a store lie before its tables, and the nodes below them before these.
 constexpr FirstBytes firstOfStore{ firstOfFar.head, PointStore::lastBytes };
 
+Error withoutEpochs(const std::string& cloud, const std::string& epoch)
+{
+  return makeError(Error::Kind::BadArgument,
+    "'" + cloud + "' is no collection, and nothing else has epochs; leave out '" + epoch + "'");
+}
+
 bool isNamedAsStore(const std::string& address)
 {
   const std::string name = address.substr(0, address.find_first_of("?#"));
@@ -124,9 +130,7 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
   const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
   if (!format && asked.epoch && accepts(asked.file))
   {
-    return makeError(Error::Kind::BadArgument,
-      "'" + asked.file + "' is no collection, and nothing else has epochs; leave out '" +
-        *asked.epoch + "'");
+    return withoutEpochs(asked.file, *asked.epoch);
   }
   if (!format && !held && std::filesystem::exists(path) && accepts(path + indexExtension))
   {
@@ -144,6 +148,12 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
   }
   Result<std::shared_ptr<const StoredCloud>> cloud =
     format ? (*format.*way)(path) : StoreFile().open(path);
+  // An address has all kinds behind it, and those without epochs do not look for one.
+  const bool named = held && asked.epoch && !asked.epoch->empty();
+  if (cloud && named && (*cloud)->description().epochs.empty())
+  {
+    return withoutEpochs((*cloud)->description().path, *asked.epoch);
+  }
   if (!cloud && held && !held->isStillNamed())
   {
     // Whatever was made of a part that could not be read: this is why.

@@ -4,7 +4,8 @@ import math
 import os
 
 from . import _arrays, _kernel
-from ._errors import PointFrontError, did_you_mean, warn, written
+from ._errors import PointFrontError, did_you_mean, warn
+from ._far import written
 from ._queries import box_of, finite, option, whole_number
 
 

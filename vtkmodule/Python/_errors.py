@@ -16,14 +16,6 @@ class PointFrontWarning(UserWarning):
     """Something was not as it should be, and the work went on. A full sentence says what."""
 
 
-def written(path):
-    """The path of a file that is written; an address is a PointFrontError."""
-    if "://" in path:
-        raise PointFrontError(f"'{path}' is an address, and only files of this machine are "
-                              "written; write a file and upload that")
-    return path
-
-
 def did_you_mean(name, known):
     """The end of every message about a name that does not exist, empty if no known one is near."""
     near = difflib.get_close_matches(name, list(known), n=1, cutoff=0.7)

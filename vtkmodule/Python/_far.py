@@ -32,6 +32,14 @@ def is_address(name):
     return isinstance(name, str) and "://" in name
 
 
+def written(path):
+    """The path of a file that is written; an address is a PointFrontError."""
+    if is_address(path):
+        raise PointFrontError(f"'{path}' is an address, and only files of this machine are "
+                              "written; write a file and upload that")
+    return path
+
+
 def origin_of(address):
     """Scheme, host and port."""
     parts = urllib.parse.urlsplit(address)

@@ -12,7 +12,7 @@ import zlib
 import numpy
 
 from . import _far, _kernel
-from ._errors import PointFrontError, warn, written
+from ._errors import PointFrontError, warn
 from ._host import TOOL
 
 _LOOK_SECONDS = 0.02  # for an interrupt, while the tool runs
@@ -59,7 +59,7 @@ class Picture:
 
 def _png_name(path):
     """The path as text, if its name is a PNG file's: the rule of `pointfront render`."""
-    path = written(os.fsdecode(path))
+    path = _far.written(os.fsdecode(path))
     if not path.endswith((".png", ".PNG")):
         raise PointFrontError(f"'{path}' must end in .png: a picture is written as PNG")
     return path
@@ -185,7 +185,7 @@ def _warn_of(said, known):
 
 def export(path, output, options, known=(), progress=None):
     """Writes points of a stored cloud to a file; how many. See Cloud.export."""
-    written(output)
+    _far.written(output)
     said = []
     shown = "none" if progress in (None, False) else "json"
     printed = run_tool(["export", path, "-o", output, "--progress", shown,

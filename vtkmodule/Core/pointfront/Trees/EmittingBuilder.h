@@ -58,10 +58,11 @@ protected:
     node->row.splatRadius = splat_.measure(positions, held);
     return node;
   }
-  /// Raises the spacing of an unevenly dense leaf to what its sparse points need, and at most to
-  /// `most` world units. `held`: its own points, in Morton order.
+  /// Raises the spacing of unevenly dense points to what the sparse ones need, and at most to
+  /// `most` world units; BuiltTree keeps it below that of the node above. `held`: a node's own
+  /// points, in Morton order.
   void seeSparse(BuiltNode& leaf, const RecordSpan& positions,
-    const std::vector<std::uint32_t>& held, float most) const
+    const std::vector<std::uint32_t>& held, float most = std::numeric_limits<float>::max()) const
   {
     const double sparse = space().stepLength() * sparseSpacing(positions, held);
     const double bounded = std::min(double(most), sparse);
@@ -104,7 +105,7 @@ protected:
     const RecordSpan records{ subtree.records.data(), recordBytes };
     if (subtree.root->children.empty())
     {
-      seeSparse(*subtree.root, records, all, std::numeric_limits<float>::max());
+      seeSparse(*subtree.root, records, all);
     }
     emit(*subtree.root, records, all);
     return std::move(subtree.root);

@@ -59,7 +59,6 @@ std::vector<std::byte> KdSubtreeBuilder::owed(
   }
   take(region, total);
   region.above = static_cast<double>(total);
-  region.mostSpacing = total > 0 ? 0.0f : region.mostSpacing; // that of the node above is not known
   std::vector<std::uint32_t> rest = std::exchange(active_, std::move(held_));
   std::vector<std::uint8_t> restSteps = std::exchange(steps_, {});
   countSteps(active_);
@@ -165,7 +164,7 @@ std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordSpan& records, Reg
   held_ = {};
   const double ownPlaces = places(static_cast<double>(own.size()), region.above);
   built->row.splatRadius = splatRadius(own, ownPlaces, shown);
-  seeSparse(*built, viewOf(positions_), own, region.mostSpacing);
+  seeSparse(*built, viewOf(positions_), own);
   if (region.end > region.begin)
   {
     const double left = static_cast<double>(region.end - region.begin);
@@ -174,9 +173,8 @@ std::unique_ptr<BuiltNode> KdSubtreeBuilder::node(const RecordSpan& records, Reg
     {
       if (begin < end)
       {
-        built->children.push_back(node(records,
-          { begin, end, drawn * static_cast<double>(end - begin) / left,
-            0.75f * built->row.spacing }));
+        built->children.push_back(
+          node(records, { begin, end, drawn * static_cast<double>(end - begin) / left }));
       }
     }
   }
@@ -315,7 +313,7 @@ OpenSubtree KdSubtreeBuilder::join(std::vector<OpenSubtree> children, std::uint3
   const double shown = places(ownPoints + above, above);
   joined.root->row.spacing = static_cast<float>(spacing(shown));
   joined.root->row.splatRadius = splatRadius(points_, places(ownPoints, above), shown);
-  seeSparse(*joined.root, records, points_, std::numeric_limits<float>::max());
+  seeSparse(*joined.root, records, points_);
   emit(*joined.root, records, points_);
   return joined;
 }

@@ -5,7 +5,6 @@
 #include "pointfront/Trees/KdCut.h"
 
 #include <cstdint>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -47,7 +46,6 @@ private:
     std::size_t begin = 0;
     std::size_t end = 0;
     double above = 0.0;
-    float mostSpacing = std::numeric_limits<float>::max(); ///< a part of its parent's
   };
   /// The records in Morton order, with their positions_; until the next call.
   RecordSpan sortedPoints(std::vector<std::byte> records, std::size_t count);

@@ -2,6 +2,8 @@
 
 #include "Clouds.h"
 
+#include "PerWindow.h"
+
 #include <vtkActorCollection.h>
 #include <vtkCallbackCommand.h>
 #include <vtkCommand.h>
@@ -84,6 +86,23 @@ TEST(GpuBudgets, ABudgetOfGpuMemoryMayChange)
   EXPECT_EQ(scene.mapper->GetLastGPUBytes(), 0);
   EXPECT_EQ(scene.mapper->GetLastPointsDrawn(), 0);
   EXPECT_FALSE(scene.mapper->NeedsRender());
+}
+
+// Mappers of a window that is gone count for no other, though it often has the same address.
+TEST(GpuBudgets, AWindowSharesNothingWithOneThatIsGone)
+{
+  auto window = vtkSmartPointer<vtkRenderWindow>::New();
+  const vtkWindow* const first = window;
+  const auto held = perWindow<int>(window);
+  std::vector<vtkSmartPointer<vtkRenderWindow>> others;
+  window = nullptr;
+  for (int tries = 0; tries < 1000 && window != first; ++tries)
+  {
+    window = vtkSmartPointer<vtkRenderWindow>::New();
+    others.push_back(window);
+  }
+  EXPECT_NE(perWindow<int>(window), held);
+  EXPECT_EQ(perWindow<int>(window).use_count(), 1);
 }
 
 /// One frame within a budget that was lowered before it, whichever cloud is drawn first.

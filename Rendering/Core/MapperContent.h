@@ -13,6 +13,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 
 /// The members of a mapper.
 struct vtkPointFrontMapper::Content
@@ -27,6 +28,7 @@ struct vtkPointFrontMapper::Content
   vtkMTimeType InputTime = 0;
   bool MissingTold = false; ///< that this input names no store
   bool OtherPointsTold = false; ///< that this input's points are not the store's
+  std::pair<vtkTypeInt64, vtkIdType> LeftOutTold{ -1, -1 }; ///< with these budgets
   pointfront::MapperFronts Views;
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;

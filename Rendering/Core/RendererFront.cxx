@@ -81,7 +81,8 @@ bool RendererFront::NeedsRender()
   {
     return true; // the time of a frame in motion limited the picture; at rest the view shows more
   }
-  return this->View.needsFrame(this->NewFrame);
+  const bool again = this->LeftOut && !this->LeftOutBefore && !this->View.request().interacting;
+  return this->View.needsFrame(this->NewFrame) || again; // asked anyway: it moves the front
 }
 
 } // namespace pointfront

@@ -32,6 +32,10 @@ struct RendererFront
   bool FirstDrawing = false;
   bool UploadsLeft = false;
   bool Complete = false;
+  /// Budgets left something without a point in the last frame. Clouds that were drawn after it may
+  /// have come down since, so one more frame is due before that is final.
+  bool LeftOut = false;
+  bool LeftOutBefore = false; ///< and in the frame before
   bool Announced = false; ///< ViewCompleteEvent was invoked for that view
   FrameStatistics Statistics; ///< its last frame's
 

@@ -1,6 +1,7 @@
 #include "vtkPointFrontMapper.h"
 
 #include "MapperContent.h"
+#include "RoomWarning.h"
 
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
@@ -140,6 +141,14 @@ const std::vector<std::uint64_t>& vtkPointFrontMapper::GetLastLayerPoints() cons
 const std::vector<std::uint16_t>& vtkPointFrontMapper::GetLastLayersLeftOut() const
 {
   return this->GetStatistics().layersLeftOut;
+}
+
+std::string vtkPointFrontMapper::GetLastLeftOut()
+{
+  vtkPointFrontStore* const store = this->GetStore();
+  return store
+    ? pointfront::leftOutOf(store->GetStore()->description(), this->GetLastLayersLeftOut())
+    : std::string();
 }
 
 vtkIdType vtkPointFrontMapper::GetLastClassPointsDrawn(int objectClass)
@@ -318,5 +327,6 @@ void vtkPointFrontMapper::PrintSelf(ostream& os, vtkIndent indent)
   os << indent << "LastLimitedByPoints: " << last.limitedByPoints << "\n";
   os << indent << "LastLimitedByGPUMemory: " << last.limitedByGpuMemory << "\n";
   os << indent << "LastLimitedByMemory: " << last.limitedByMemory << "\n";
+  os << indent << "LastLeftOut: " << this->GetLastLeftOut() << "\n";
   os << indent << "LastFailedNodes: " << last.failedNodes << "\n";
 }

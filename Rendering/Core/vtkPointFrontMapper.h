@@ -81,9 +81,9 @@ public:
   ///@{
   /**
    * Most bytes of GPU memory for points, over all clouds of a window. A view that needs more
-   * settles at the best error that fits (LastLimitedByGPUMemory). The budget counts the size of the
-   * buffers, filled or not. It also holds in a frame in which buffers grow, and in the first frame
-   * after the budget was lowered. Default 0: no limit but PointBudget.
+   * settles at the best error that fits (LastLimitedByGPUMemory). Buffers count, filled or not,
+   * also in a frame in which they grow and in the first one after the budget was lowered. Default
+   * 0: no limit but PointBudget.
    */
   vtkSetClampMacro(GPUMemoryBudget, vtkTypeInt64, 0, VTK_TYPE_INT64_MAX);
   vtkGetMacro(GPUMemoryBudget, vtkTypeInt64);
@@ -277,8 +277,7 @@ public:
   /// cannot be opened.
   vtkPointFrontStore* GetStore();
 
-  /// Facts about the last frame. Error in pixels; Threshold is the spacing in pixels that the front
-  /// worked with.
+  /// Facts about the last frame. Threshold is the spacing in pixels that the front worked with.
   ///@{
   vtkIdType GetLastPointsDrawn() const;
   /// Points drawn of a class (as in SetClassVisibility()), 0 if the store has no tree of it.
@@ -288,8 +287,7 @@ public:
   const std::vector<std::uint64_t>& GetLastLayerPoints() const;
   const std::vector<std::uint16_t>& GetLastLayersLeftOut() const;
 #endif
-  /// Points drawn beside these while the view moved: the last picture showed them, and the front
-  /// of this frame lacks them.
+  /// Points drawn beside these while the view moved: seen before, which the frame's front lacks.
   vtkIdType GetLastPointsKept() const;
   vtkIdType GetLastNodesDrawn() const;
   vtkIdType GetLastFrontLength() const;
@@ -301,8 +299,8 @@ public:
   vtkTypeInt64 GetLastGPUBytes() const;
   /// As LastGPUBytes, over all clouds of the window.
   vtkTypeInt64 GetLastWindowGPUBytes() const;
-  /// True when the last frame showed all that TargetError and the budgets allow: no further render
-  /// will change the picture.
+  /// True when the last frame showed all that TargetError and the budgets allow (LastLeftOut: not
+  /// everything): no further render will change the picture.
   bool GetLastComplete() const;
   /// True when PointBudget, or the time of a frame in motion, kept the error above TargetError.
   bool GetLastLimitedByPoints() const;
@@ -310,6 +308,8 @@ public:
   bool GetLastLimitedByGPUMemory() const;
   /// True when the store's host memory budget kept the error above TargetError.
   bool GetLastLimitedByMemory() const;
+  /// In sight without room for a single point: "class 2, class 6" or the store. A warning says it.
+  std::string GetLastLeftOut();
   /// Nodes of this view that could not be read; the nodes above them are drawn in their place.
   vtkIdType GetLastFailedNodes() const;
   /// True when a renderer's last frame drew this mapper, and the facts above are of that frame.

@@ -6,6 +6,7 @@
 #include "PosterTile.h"
 #include "RendererClouds.h"
 #include "RendererLights.h"
+#include "RoomWarning.h"
 
 #include "pointfront/Detail/DetailLevel.h"
 #include "pointfront/Plan/FramePlanner.h"
@@ -295,8 +296,14 @@ void vtkPointFrontMapper::FinishFrame(
   view.View.drew(static_cast<std::uint64_t>(keptPoints));
   view.FirstDrawing = false;
   view.UploadsLeft = uploadsLeft;
+  // The front counts on room for one node at least.
+  const bool noRoom = this->GPUMemoryBudget > 0 && this->GetStatistics().gpuBytes == 0 &&
+    points == 0 && !uploadsLeft && view.Plan && view.Plan->pointCount() > 0;
+  view.LeftOutBefore = view.LeftOut;
+  view.LeftOut = noRoom || !delta.layersLeftOut.empty();
   // In motion the frame time limits the front: at rest the same view may show more.
   view.Complete = delta.complete && !uploadsLeft && view.View.isGrown() &&
+    (!view.LeftOut || view.LeftOutBefore) &&
     (!IsInteracting(renderer) || delta.errorPx <= this->TargetError);
   pointfront::FrameStatistics& statistics = this->GetStatistics();
   const double frontMilliseconds = statistics.frontMilliseconds;
@@ -307,13 +314,23 @@ void vtkPointFrontMapper::FinishFrame(
     view.Plan ? view.Plan->layerPoints() : std::vector<std::uint64_t>(); // wanted of each
   statistics.technique = view.Plan ? techniqueOf(*view.Plan) : std::string();
   statistics.keptPoints = static_cast<std::uint64_t>(keptPoints);
-  // The front counts on room for one node at least.
-  const bool noRoom = this->GPUMemoryBudget > 0 && statistics.gpuBytes == 0 && points == 0 &&
-    !uploadsLeft && view.Plan && view.Plan->pointCount() > 0;
   statistics.limitedByGpuMemory = statistics.limitedByGpuMemory || noRoom;
+  for (std::size_t layer = 0; noRoom && layer < statistics.layerPoints.size(); ++layer)
+  {
+    statistics.layerPoints[layer] > 0
+      ? statistics.layersLeftOut.push_back(static_cast<std::uint16_t>(layer))
+      : void();
+  }
   statistics.complete = view.Complete;
   view.Statistics = statistics;
   statistics = this->Internals->Views.statisticsOf(renderer);
+  const auto budgets = std::make_pair(this->GPUMemoryBudget, this->PointBudget);
+  if (view.Complete && view.LeftOut &&
+    std::exchange(this->Internals->LeftOutTold, budgets) != budgets)
+  {
+    vtkWarningMacro(<< pointfront::roomWarning(this->GetStore()->GetStore()->description(),
+                      view.Statistics.layersLeftOut, view.Statistics.limitedByGpuMemory));
+  }
   const bool announce = view.Complete && !view.Announced;
   view.Announced = view.Complete;
   if (announce)

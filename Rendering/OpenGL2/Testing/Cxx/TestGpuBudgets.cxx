@@ -88,6 +88,46 @@ TEST(GpuBudgets, ABudgetOfGpuMemoryMayChange)
   EXPECT_FALSE(scene.mapper->NeedsRender());
 }
 
+TEST(GpuBudgets, ACloudWithoutRoomIsNamedOnce)
+{
+  Clouds scene(3);
+  scene.setGpuBudget(200 << 10);
+  std::vector<int> warnings(3, 0);
+  const std::vector<vtkPointFrontMapper*> mappers = scene.all();
+  for (std::size_t i = 0; i < mappers.size(); ++i)
+  {
+    countEvents(mappers[i], vtkCommand::WarningEvent, warnings[i]);
+  }
+  scene.first.window->Render();
+  EXPECT_FALSE(mappers[2]->GetLastComplete()) << "others may come down";
+  EXPECT_TRUE(mappers[2]->NeedsRender());
+  scene.settle();
+  scene.settle();
+  int drawn = 0;
+  for (std::size_t i = 0; i < mappers.size(); ++i)
+  {
+    const bool shows = mappers[i]->GetLastPointsDrawn() > 0;
+    drawn += shows ? 1 : 0;
+    EXPECT_TRUE(mappers[i]->GetLastComplete()) << i;
+    EXPECT_TRUE(mappers[i]->GetLastLimitedByGPUMemory()) << i;
+    EXPECT_EQ(mappers[i]->GetLastLeftOut(), shows ? "" : mappers[i]->GetStore()->GetFileName());
+    EXPECT_EQ(warnings[i], shows ? 0 : 1) << i;
+  }
+  EXPECT_EQ(drawn, 1) << "a node for each of three takes twice as much";
+  for (vtkPointFrontMapper* const mapper : mappers)
+  {
+    const double error = mapper->GetLastError();
+    EXPECT_GE(error, mapper->GetLastPointsDrawn() > 0 ? 0.02 : 2.0 * mappers[0]->GetLastError());
+  }
+  scene.setGpuBudget(400 << 10);
+  scene.settle();
+  for (vtkPointFrontMapper* const mapper : mappers)
+  {
+    EXPECT_GT(mapper->GetLastPointsDrawn(), 0);
+    EXPECT_EQ(mapper->GetLastLeftOut(), "");
+  }
+}
+
 // Mappers of a window that is gone count for no other, though it often has the same address.
 TEST(GpuBudgets, AWindowSharesNothingWithOneThatIsGone)
 {

@@ -345,8 +345,8 @@ void DetailWalk::noteError(const Visit& at, std::uint32_t shown, double distance
   if (residency_ && !refined && !everything)
   {
     const double ratio = std::clamp(at.ratio, 0.0, 1.0);
-    delta_->errorPx =
-      std::max(delta_->errorPx, prefixErrorPx(at.points, shown, errorOf(at, distance), ratio));
+    delta_->errorPx = std::max(delta_->errorPx,
+      prefixErrorPx(at.points, leastForError(shown, ratio), errorOf(at, distance), ratio));
   }
 }
 

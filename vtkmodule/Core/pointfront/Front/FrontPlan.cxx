@@ -189,6 +189,7 @@ void FrontPlan::noteError(const ActiveNode& node, std::uint32_t drawn, bool refi
   if (!refined && !everything)
   {
     // Among 2,000 nodes a dozen are the largest so far: no root for the others.
+    drawn = leastForError(drawn, node.spacingRatio);
     const double density = prefixDensity(node.pointCount, drawn, node.spacingRatio);
     const double errorPx = node.errorPx;
     if (errorPx * errorPx > delta_->errorPx * delta_->errorPx * density)

@@ -65,4 +65,10 @@ inline double prefixErrorPx(
   return density > 0.0 ? errorPx / std::sqrt(density) : errorPx;
 }
 
+/// A root that shows no point counts as one of which one is shown: a finite error, and the largest.
+inline std::uint32_t leastForError(std::uint32_t drawn, double ratio)
+{
+  return drawn == 0 && ratio == 0.0 ? 1 : drawn;
+}
+
 } // namespace pointfront

@@ -43,10 +43,26 @@ std::string trimmed(const std::string& text)
   return first == std::string::npos ? std::string() : text.substr(first, last - first + 1);
 }
 
+/// The name of "[name]", of a server as Address::origin() says it. Empty: it names no whole server.
+std::string sectionName(const std::string& line, bool server)
+{
+  const std::string name = line.substr(1, line.find(']') - 1);
+  const Result<Address> address = server ? Address::parse(name) : makeError(Error::Kind(), "");
+  const bool whole = address && address->path.find_first_not_of('/') == std::string::npos &&
+    address->query.empty() && address->userInfo.empty();
+  return !server ? name : (whole ? address->origin() : std::string());
+}
+
+Error badLine(const std::string& path, std::size_t number, const std::string& what)
+{
+  return makeError(
+    Error::Kind::BadArgument, "line " + std::to_string(number) + " of '" + path + "' " + what);
+}
+
 /// The lines of one "[section]" of a file.
-/// all  lines above the first section are an error; else nobody reads them
+/// servers  sections name servers; lines above the first one are an error, else nobody reads them
 Result<std::vector<std::string>> sectionOf(
-  const std::string& path, const std::string& section, bool all)
+  const std::string& path, const std::string& section, bool servers)
 {
   const Result<std::string> text = readSmallText(path, mostSettingsBytes);
   if (!text)
@@ -68,15 +84,19 @@ Result<std::vector<std::string>> sectionOf(
     }
     if (line.front() == '[')
     {
-      inside = line == "[" + section + "]";
+      const std::string name = sectionName(line, servers);
+      if (name.empty() && servers)
+      {
+        return badLine(path, number,
+          "names no server: headers are for a whole server; write [" + section + "] for that one");
+      }
+      inside = name == section;
       above = false;
     }
-    else if (all && above)
+    else if (servers && above)
     {
-      return makeError(Error::Kind::BadArgument,
-        "line " + std::to_string(number) + " of '" + path +
-          "' has nothing in brackets above it that says whom it is for; write [" + section +
-          "] there");
+      return badLine(path, number,
+        "has nothing in brackets above it that says whom it is for; write [" + section + "] there");
     }
     else if (inside)
     {

@@ -4,7 +4,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -83,6 +85,34 @@ TEST(RemoteOptions, OfSettingsThatSayNothingAreAFault)
   EXPECT_FALSE(options.fault);
   EXPECT_EQ(options.timeLimit.count(), 2500);
   EXPECT_TRUE(options.refusePrivate);
+}
+
+TEST(RemoteOptions, SectionsOfHeadersNameServers)
+{
+  const std::string file = testing::TempDir() + "pointfront_headers";
+  const auto headersOf = [&](const std::string& section)
+  {
+    std::ofstream(file) << "# one\n[http://other.example]\nX-Key: 2\n" << section << "\nX-Key: 1\n";
+    ::setenv("POINTFRONT_HTTP_HEADERS", file.c_str(), 1);
+    const auto request = requestOf(*Address::parse("https://five.example:81/a"));
+    ::unsetenv("POINTFRONT_HTTP_HEADERS");
+    return request ? request->headers : std::vector<std::string>{ request.error().what };
+  };
+  for (const char* const right :
+    { "[https://five.example:81]", "[https://five.example:81/]", "[HTTPS://Five.example:81//]" })
+  {
+    EXPECT_EQ(headersOf(right), std::vector<std::string>{ "X-Key: 1" }) << right;
+  }
+  EXPECT_TRUE(headersOf("[https://five.example/]").empty()) << "another port";
+  for (const char* const wrong : { "[https://five.example:81/secret/]", "[five.example:81]", "[]",
+         "[https://five.example:81?secret]", "[https://me:secret@five.example:81]" })
+  {
+    const std::vector<std::string> told = headersOf(wrong);
+    ASSERT_EQ(told.size(), 1u) << wrong;
+    EXPECT_NE(told.front().find("line 4 of '" + file), std::string::npos) << told.front();
+    EXPECT_EQ(told.front().find("secret"), std::string::npos) << told.front();
+  }
+  std::remove(file.c_str());
 }
 
 } // namespace pointfront

@@ -201,6 +201,11 @@ void CollectionCommand::checkWords() const
   {
     refuse("--name: only add and replace name a tile");
   }
+  if (what_ != "list" && what_ != "verify" && isAddress(path_))
+  {
+    refuse("collection " + what_ + ": '" + publicForm(path_) +
+      "' is an address, and this writes files of this machine only; write a file and upload that");
+  }
   if (what_ != "create" && replace_)
   {
     refuse("--force: only create writes over another file");

@@ -327,6 +327,10 @@ class Collections(ToolTest):
                           ("create", self.city, store, "--name", "a"),
                           ("remove", self.city, "tile_0", "--epoch", "2020")):
             self.refuse(2, "collection", *arguments)
+        for verb in (("create", store), ("add", store), ("replace", store), ("remove", "tile_0"),
+                     ("undo",), ("compact",)):
+            said = self.refuse(2, "collection", verb[0], "s3://bucket/a.pfcollection", *verb[1:])
+            self.assertIn("is an address", said.err)
         self.refuse(1, "collection", "create", self.folder / "city.pfront", store)
         self.refuse(1, "collection", "add", store, store)
         self.refuse(1, "collection", "list", self.folder / "none.pfcollection")

@@ -216,20 +216,34 @@ class VirtualClouds(ToolTest):
                                       "--backend", "software", "--size", "320x240")
                 self.assertIn(word, refused.err)
 
-    def test_a_list_of_stores_with_class_trees_that_lies_is_told(self):
-        """Such stores are all opened with the list, and each is compared with it."""
+    def classified(self, name, classes):
+        """The item of a store whose points have these classes in turn, and a tree for each."""
         points = bytearray((self.folder / "one.las").read_bytes())
         begin, _, form, size = struct.unpack_from("<IIBH", points, 96)
-        for number in range(1000):
-            points[begin + number * size + (16 if form > 5 else 15)] = 2
+        for number in range(2000):
+            place = begin + number * size + (16 if form > 5 else 15)
+            points[place] = classes[number % len(classes)]
         (self.folder / "classes.las").write_bytes(points)
-        items = []
-        for name in ("west", "east"):
-            store = self.folder / f"{name}.pfront"
-            self.succeed("build", self.folder / "classes.las", "-o", store)
-            told = self.succeed("info", store, "--json").json
-            self.assertGreater(len(told["layers"]), 1)
-            items.append(item(f"./{store.name}", told["bounds"], told["points"]))
+        store = self.folder / f"{name}.pfront"
+        self.succeed("build", self.folder / "classes.las", "-o", store, "--layers", "class")
+        told = self.succeed("info", store, "--json").json
+        self.assertEqual([layer["class"] for layer in told["layers"]], classes)
+        return item(f"./{store.name}", told["bounds"], told["points"])
+
+    def test_stores_of_a_list_may_have_other_classes_than_the_first_ones(self):
+        for others in ([2, 6], [6]):
+            items = [self.classified(f"tile{i}", others if i == 4 else [2]) for i in range(6)]
+            cloud = write_list(self.folder / "classes.vpc", items)
+            self.assertEqual(self.succeed("verify", cloud, "--json").json["points_checked"], 12000)
+            told = self.succeed("info", cloud, "--together", "--json").json
+            self.assertEqual([layer["class"] for layer in told["layers"]], [2, 6])
+            self.assertEqual(len(self.points(cloud, "--classes", "6").splitlines()),
+                             1 + 2000 // len(others))
+
+    def test_a_list_of_stores_with_class_trees_that_lies_is_told(self):
+        """Such stores are all opened with the list, and each is compared with it."""
+        items = [self.classified(name, [2, 6]) for name in ("west", "east")]
+        told = self.succeed("info", self.folder / "east.pfront", "--json").json
         right = write_list(self.folder / "right.vpc", items)
         self.succeed("verify", right)
         for key, lie, word in (

@@ -176,7 +176,8 @@ Result<void> ListedTiles::openFirst(std::vector<std::string> warnings)
   return describe(first, std::move(warnings));
 }
 
-/// Where nothing can be opened, or somebody stopped it, or the tiles are no single trees.
+/// Where nothing can be opened, or somebody stopped it, or the tiles are no single trees. A tree of
+/// one class says nothing of the classes that tiles which are closed have.
 Result<void> ListedTiles::refuseFaults(const std::vector<std::size_t>& first)
 {
   for (std::size_t t = 0; t < tiles_.size(); ++t)
@@ -190,11 +191,12 @@ Result<void> ListedTiles::refuseFaults(const std::vector<std::size_t>& first)
   }
   for (const std::size_t t : first)
   {
-    if (slots_[t].tile->cloud->description().layers.size() != 1)
+    const StoreDescription& own = slots_[t].tile->cloud->description();
+    if (own.layers.size() != 1 || own.layers.front().name != "all")
     {
       return makeError(Error::Kind::Unsupported,
         path_ + ": '" + publicForm(tiles_[t].address) +
-          "' has several trees; open its tiles by a list of stores (.pfronts)");
+          "' has a tree for each class; open its tiles by a list of stores (.pfronts)");
     }
   }
   return {};
@@ -380,7 +382,8 @@ Result<TileDescription::Part> ListedTiles::partOf(std::size_t tile, const Stored
   if (!(both.schema == whole_.schema) || both.splatRadiusBase != whole_.splatRadiusBase ||
     both.layers.size() != whole_.layers.size() || cloud.hierarchy()->roots().size() > 1)
   {
-    return listed.unlike("it has other attributes or layers than the tiles that are open");
+    return listed.unlike(
+      "it has other attributes or trees than the tiles that are open, which the list does not say");
   }
   TileDescription::Part part = std::move(described->parts[1]);
   part.placing = TilePlacing(own.grid, whole_.grid);

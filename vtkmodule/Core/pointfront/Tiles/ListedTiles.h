@@ -52,7 +52,7 @@ public:
 
   /// `path` is that of the list.
   /// Errors  BadArgument: no tile; those of a tile, if none of its kind can be opened; Unsupported:
-  ///         a tile has several trees, and must be opened to know how many.
+  ///         a tile has trees of classes, and each must be opened to know which.
   static Result<std::shared_ptr<const ListedTiles>> make(
     const std::string& path, std::vector<ListedTile> tiles, std::vector<std::string> warnings);
   ~ListedTiles();

@@ -277,6 +277,25 @@ class Page(InBrowser):
             server.process.stdout.close()
             server.process.stderr.close()
 
+    def test_it_ends_with_its_terminal(self):
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        tools = server.tools()
+        self.assertTrue(tools)
+        self.assertEqual(server.end(signal.SIGHUP), 130)
+        self.assertEqual(server.said, "")
+        self.assertFalse([tool for tool in tools if pathlib.Path(f"/proc/{tool}").exists()])
+
+    def test_it_outlives_its_terminal_under_nohup(self):
+        before = signal.signal(signal.SIGHUP, signal.SIG_IGN)
+        self.addCleanup(signal.signal, signal.SIGHUP, before)
+        server = Server(self.store, "--port", "0")
+        self.addCleanup(server.process.kill)
+        server.process.send_signal(signal.SIGHUP)
+        with self.assertRaises(subprocess.TimeoutExpired):
+            server.process.wait(1)
+        self.assertEqual(server.end(), 130)
+
     def test_what_cannot_be_served_is_said(self):
         for arguments, status, says in ((["none.pfront"], 1, "none.pfront"),
                                         ([self.store, "--technique", "dust"], 1, "dust"),

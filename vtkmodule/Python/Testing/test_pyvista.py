@@ -157,6 +157,22 @@ class PyVista(unittest.TestCase):
         self.assertNotIn("rgb", mesh.point_data)
         numpy.testing.assert_array_equal(mesh["point_id"], arrays["id"])
 
+    def test_attributes_called_as_the_arrays_of_points_are(self):
+        count = 1000
+        random = numpy.random.default_rng(5)
+        arrays = {"position": random.uniform(0, 10, (count, 3)),
+                  **{name: random.integers(0, 1 << 15, count, "uint16")
+                     for name in ("point_id", "id")}}
+        store = self.folder / "names.pfront"
+        pointfront.build(arrays, store)
+        cloud = pointfront.open(store)
+        points, mesh = cloud.points(), cloud.to_pyvista()
+        numpy.testing.assert_array_equal(mesh.points, points["position"])
+        numpy.testing.assert_array_equal(mesh["point_id"], points["id"])
+        for array, stored in (("point_id_", "point_id"), ("id", "id_")):
+            numpy.testing.assert_array_equal(mesh[array], points[stored], array)
+            self.assertEqual(sorted(mesh[array]), sorted(arrays[array.rstrip("_")]), array)
+
     def test_a_cloud_of_a_server_is_drawn_as_its_file(self):
         with FarServer(self.folder) as server:
             far = pointfront.open(f"http://{HERE}:{server.port}/a.pfront")

@@ -8,6 +8,7 @@
 #include <vtkPoints.h>
 
 #include <iomanip>
+#include <locale>
 #include <sstream>
 #include <vector>
 
@@ -35,6 +36,7 @@ AnyRegion regionOfBounds(const double bounds[6])
     if (low > high)
     {
       std::ostringstream message;
+      message.imbue(std::locale::classic());
       message << std::setprecision(12) << "the box has its lower end above its upper one along "
               << "xyz"[axis] << " (" << low << " above " << high
               << "): give xmin, xmax, ymin, ymax, zmin, zmax";

@@ -6,7 +6,8 @@
 #include "NormalsChoice.h"
 #include "RasterModule.h"
 
-#include <cstdio>
+#include "pointfront/Base/NumberText.h"
+
 #include <string>
 
 namespace pointfront
@@ -24,10 +25,8 @@ Result<void> within(double value, double least, double most, const char* name)
   {
     return {};
   }
-  char text[200];
-  std::snprintf(
-    text, sizeof text, "%s of %g is not possible; choose %g to %g", name, value, least, most);
-  return wrong(text);
+  return wrong(std::string(name) + " of " + numberText(value, 6) + " is not possible; choose " +
+    numberText(least, 6) + " to " + numberText(most, 6));
 }
 
 Result<void> checkNormals(const PassChoice& choice)

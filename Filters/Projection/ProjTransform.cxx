@@ -2,10 +2,11 @@
 
 #include "ProjSystem.h"
 
+#include "pointfront/Base/NumberText.h"
+
 #include <proj.h>
 
 #include <cmath>
-#include <cstdio>
 #include <utility>
 
 namespace pointfront
@@ -94,9 +95,7 @@ std::string missingGrids(const ProjContext& context, const PJconsts* operation)
 std::string accuracyOf(const ProjContext& context, const PJconsts* operation)
 {
   const double metres = proj_coordoperation_get_accuracy(context.get(), operation);
-  char text[48];
-  std::snprintf(text, sizeof text, metres >= 0.0 ? "%g m" : "an unknown number of metres", metres);
-  return text;
+  return metres >= 0.0 ? numberText(metres, 6) + " m" : "an unknown number of metres";
 }
 
 /// Is the best transformation usable here, and if not, how good is what is used instead?
@@ -238,8 +237,8 @@ Result<void> ProjTransform::apply(glm::dvec3* points, std::size_t count) const
   giveBack(std::move(copy));
   if (arrived == 0)
   {
-    char where[128];
-    std::snprintf(where, sizeof where, "(%.10g, %.10g, %.10g)", example.x, example.y, example.z);
+    const std::string where = "(" + numberText(example.x, 10) + ", " + numberText(example.y, 10) +
+      ", " + numberText(example.z, 10) + ")";
     return makeError(Error::Kind::BadArgument,
       "not one of " + std::to_string(asked) + " points, such as " + where +
         ", can be transformed from " + names_ + why +

@@ -1,8 +1,9 @@
 #include "LASFieldChoice.h"
 
+#include "pointfront/Base/NumberText.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <optional>
 
@@ -106,9 +107,7 @@ Fit fitOf(const SinkDescription& description, std::size_t column, const Attribut
 
 std::string shortNumber(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.9g", value);
-  return text;
+  return numberText(value, 9);
 }
 
 /// The field of exactly that name: 'Intensity' is another attribute.

@@ -2,9 +2,10 @@
 
 #include "LASPointLayout.h"
 
+#include "pointfront/Base/NumberText.h"
+
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace pointfront
 {
@@ -35,11 +36,9 @@ std::string at(std::size_t byte)
   return " (byte " + std::to_string(byte) + ")";
 }
 
-std::string numberText(double value)
+std::string exactText(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof text, "%.17g", value);
-  return text;
+  return numberText(value, 17);
 }
 
 Result<void> readGrid(const std::byte* bytes, const std::string& path, LASHeader& header)
@@ -54,21 +53,21 @@ Result<void> readGrid(const std::byte* bytes, const std::string& path, LASHeader
     if (!std::isfinite(scale) || scale <= 0.0)
     {
       return makeError(Error::Kind::BadFormat,
-        path + ": the " + name + " scale is " + numberText(scale) + at(scaleField) +
+        path + ": the " + name + " scale is " + exactText(scale) + at(scaleField) +
           ", it must be a number above 0; write the file again with a valid header");
     }
     if (!std::isfinite(offset) || !exactInDouble(scale, offset))
     {
       return makeError(Error::Kind::BadFormat,
-        path + ": the " + name + " offset is " + numberText(offset) + at(offsetField) +
-          ", which double precision cannot hold in steps of " + numberText(scale) +
+        path + ": the " + name + " offset is " + exactText(offset) + at(offsetField) +
+          ", which double precision cannot hold in steps of " + exactText(scale) +
           "; write the file again with a valid header");
     }
     if (std::abs(offset) + 2147483648.0 * scale > farthestCoordinate)
     {
       return makeError(Error::Kind::BadFormat,
-        path + ": the " + name + " scale is " + numberText(scale) + at(scaleField) +
-          ", so that coordinates may reach beyond " + numberText(farthestCoordinate) +
+        path + ": the " + name + " scale is " + exactText(scale) + at(scaleField) +
+          ", so that coordinates may reach beyond " + exactText(farthestCoordinate) +
           "; write the file again with a valid header");
     }
     header.grid.scale[axis] = scale;
@@ -93,7 +92,7 @@ void readBounds(const std::byte* bytes, LASHeader& header, std::vector<std::stri
       if (header.pointCount > 0)
       {
         warnings.push_back(std::string("The header's bounding box has a maximum ") + "xyz"[axis] +
-          " of " + numberText(box.high[axis]) + " and a minimum of " + numberText(box.low[axis]) +
+          " of " + exactText(box.high[axis]) + " and a minimum of " + exactText(box.low[axis]) +
           at(maxAt) + ": it was ignored, no point was lost.");
       }
       return;

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
-#include <cstdio>
 #include <optional>
 #include <utility>
 
@@ -127,19 +126,14 @@ CoordinateCoding PCDWriter::coordinates(const SinkDescription& description)
     return coding;
   }
   coding.origin = glm::round(bounds.centre());
-  char text[256];
-  std::snprintf(text, sizeof text,
-    "Its coordinates are relative to %.17g %.17g %.17g, as a comment of its header says; --double "
-    "keeps them as they are.",
-    coding.origin.x, coding.origin.y, coding.origin.z);
-  findings_.emplace_back(text);
+  findings_.push_back("Its coordinates are relative to " + numberText(coding.origin.x, 17) + " " +
+    numberText(coding.origin.y, 17) + " " + numberText(coding.origin.z, 17) +
+    ", as a comment of its header says; --double keeps them as they are.");
   if (const glm::dvec3 by = rounding(coding.origin); !tellsApart(by))
   {
-    std::snprintf(text, sizeof text,
-      "Its coordinates are float32, which rounds them by up to %.3g, %.3g and %.3g units in x, y, "
-      "z; --double keeps all digits, but PCL reads no points from it.",
-      by.x, by.y, by.z);
-    findings_.emplace_back(text);
+    findings_.push_back("Its coordinates are float32, which rounds them by up to " +
+      numberText(by.x, 3) + ", " + numberText(by.y, 3) + " and " + numberText(by.z, 3) +
+      " units in x, y, z; --double keeps all digits, but PCL reads no points from it.");
   }
   return coding;
 }

@@ -194,11 +194,14 @@ class RulesTest(unittest.TestCase):
             "IO/LAS/Testing/TestA.cxx": "std::isalnum(c);\n",
             "CommandLine/C.cxx": "std::isalpha(c);\nstd::strtod(text, &end);\n",
             "IO/Remote/D.cxx": "std::strtod(text, &end);\ntakeNumber(text);\n",
+            "IO/Remote/E.cxx": 'f(t, "of %.3f", x);\nf(t, "%d %+g m", n, x);\n  "%-8.*e",\n',
+            "IO/Remote/F.cxx": 'f("%02x %s%%, %5d", n, s);\n"a%20b%2fc", "100 % for", "5%.";\n',
+            "CommandLine/G.cxx": 'std::printf("%.3f", x);\n',
         }
         self.assertEqual(
             self.faults("Letters", tree),
             [("CommandLine/C.cxx", 1), ("IO/LAS/A.cxx", 1), ("IO/LAS/A.cxx", 2),
-             ("IO/Remote/D.cxx", 1)],
+             ("IO/Remote/D.cxx", 1), *(("IO/Remote/E.cxx", line) for line in (1, 2, 3))],
         )
 
     def test_links(self):

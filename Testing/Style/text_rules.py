@@ -205,6 +205,8 @@ LOCALE = re.compile(
 
 # A program's own locale may write a comma in numbers; the tool never sets one.
 POINT = re.compile(r"\b(strtod|stod|strtof|stof|atof)\b")
+# Numbers of printf(); not the "%2f" of an address.
+COMMA = re.compile(r'"(\\.|[^"\\])*?%(?![0-9A-Fa-f]{2})[-+#0]*(\d+|\*)?(\.(\d+|\*))?l?[efgEG]')
 
 
 def letters(files):
@@ -216,6 +218,9 @@ def letters(files):
                     yield file.path, number, "asks the locale; Base/LetterCase.h asks ASCII"
                 elif POINT.search(line) and file.folders[0] != "CommandLine":
                     yield file.path, number, "asks the locale; Base/NumberText.h does not"
+                elif file.folders[0] in LIBRARY_ROOMS and COMMA.search(file.lines[number - 1]):
+                    yield file.path, number, "writes a number by the locale; Base/NumberText.h " \
+                        "does not"
 
 
 LINK = re.compile(r"\]\(([^)#\s]+)[^)]*\)")

@@ -2,6 +2,7 @@
 
 #include "StoreFacts.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Quality/QualityCurve.h"
 
 #include "vtkClientServerStream.h"
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <utility>
 
@@ -146,11 +146,11 @@ std::string vtkPVPointFrontFrame::GetExpectedDifference() const
   {
     return "not measured";
   }
-  char numbers[80];
-  std::snprintf(numbers, sizeof numbers, "%.1f to %.1f dB, %.2g to %.2g %% of the pixels off (",
-    expected->psnr.least, expected->psnr.most, 100.0 * expected->off.least,
-    100.0 * expected->off.most);
-  return numbers + this->Technique + "; " + pointfront::curveSource() + ")";
+  return pointfront::decimalText(expected->psnr.least, 1) + " to " +
+    pointfront::decimalText(expected->psnr.most, 1) + " dB, " +
+    pointfront::numberText(100.0 * expected->off.least, 2) + " to " +
+    pointfront::numberText(100.0 * expected->off.most, 2) + " % of the pixels off (" +
+    this->Technique + "; " + pointfront::curveSource() + ")";
 }
 
 //------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 #include "IndexedNormals.h"
 #include "LASPointDecoder.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/InPlace/NodePoints.h"
@@ -14,7 +15,6 @@
 #include <algorithm>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <mutex>
 
@@ -160,12 +160,10 @@ void warnOfOrder(LASIndexReport& report)
   const double runs = static_cast<double>(report.runs);
   if (report.points > 100000 && runs > manyRuns * static_cast<double>(report.points))
   {
-    char text[160];
-    std::snprintf(text, sizeof text,
-      "The points are in no spatial order (%.1f a run): reading them in place is slow; a store "
-      "(pointfront build) or a sorted file draws faster.",
-      static_cast<double>(report.points) / runs);
-    report.warnings.emplace_back(text);
+    report.warnings.push_back("The points are in no spatial order (" +
+      decimalText(static_cast<double>(report.points) / runs, 1) +
+      " a run): reading them in place is slow; a store (pointfront build) or a sorted file draws "
+      "faster.");
   }
 }
 

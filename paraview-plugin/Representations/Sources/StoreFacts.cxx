@@ -3,6 +3,7 @@
 #include "StoredBounds.h"
 #include "StoredRanges.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Store/StoredCloud.h"
 
 #include "vtkDataArray.h"
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdio>
 #include <iomanip>
 #include <locale>
 #include <sstream>
@@ -103,9 +103,7 @@ namespace
 {
 std::string megabytes(std::uint64_t bytes)
 {
-  char text[40];
-  std::snprintf(text, sizeof text, bytes < 9950000 ? "%.2f MB" : "%.0f MB", 1e-6 * double(bytes));
-  return text;
+  return decimalText(1e-6 * double(bytes), bytes < 9950000 ? 2 : 0) + " MB";
 }
 } // namespace
 

@@ -29,4 +29,13 @@ std::string numberText(double value, int digits)
   return { text.data(), end };
 }
 
+std::string decimalText(double value, int decimals)
+{
+  std::array<char, 400> text; // the largest double has 309 digits before the point
+  const auto end =
+    std::to_chars(text.data(), text.data() + text.size(), value, std::chars_format::fixed, decimals)
+      .ptr;
+  return { text.data(), end };
+}
+
 } // namespace pointfront

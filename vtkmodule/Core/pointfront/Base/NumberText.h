@@ -13,4 +13,7 @@ double takeNumber(std::string_view& text);
 /// So many significant digits, with a decimal point: "0.25", "1e+20".
 std::string numberText(double value, int digits);
 
+/// So many decimals, with a decimal point: "0.250", "12".
+std::string decimalText(double value, int decimals);
+
 } // namespace pointfront

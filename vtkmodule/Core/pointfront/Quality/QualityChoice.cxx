@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
 #include <vector>
 
@@ -62,25 +61,18 @@ QualityChoice best(const Fits& fits, const Better& better, const Nearer& nearer)
   return choice;
 }
 
-std::string formatted(const char* format, double a, double b, double c)
-{
-  std::array<char, 160> text{};
-  std::snprintf(text.data(), text.size(), format, a, b, c);
-  return text.data();
-}
-
 QualityChoice told(QualityChoice choice, const std::string& asked)
 {
   const CurvePlace& place = *choice.place;
   const Offered& one = *offeredOf(place);
   choice.preset = { place.technique, one.technique, one.blended, one.accuracy, place.errorPx };
-  choice.sentence = "quality " + asked + ": " + place.technique +
-    formatted(" at %g px", place.errorPx, 0.0, 0.0) +
-    (choice.reached ? "" : ", the nearest that was measured") +
-    formatted("; SSIM %.3f to %.3f, in the middle %.3f", place.ssim.least, place.ssim.most,
-      place.ssim.middle) +
-    formatted("; a frame %.0f to %.0f ms", place.frameMs.least, place.frameMs.most, 0.0) +
-    " there (" + curveSource() + ")";
+  choice.sentence = "quality " + asked + ": " + place.technique + " at " +
+    numberText(place.errorPx, 6) + " px" +
+    (choice.reached ? "" : ", the nearest that was measured") + "; SSIM " +
+    decimalText(place.ssim.least, 3) + " to " + decimalText(place.ssim.most, 3) +
+    ", in the middle " + decimalText(place.ssim.middle, 3) + "; a frame " +
+    decimalText(place.frameMs.least, 0) + " to " + decimalText(place.frameMs.most, 0) +
+    " ms there (" + curveSource() + ")";
   return choice;
 }
 

@@ -1,10 +1,11 @@
 #include "pointfront/Query/InputBox.h"
 
+#include "pointfront/Base/NumberText.h"
+
 #include <glm/common.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <algorithm>
-#include <cstdio>
 #include <cstring>
 #include <string>
 #include <utility>
@@ -15,9 +16,11 @@ namespace
 {
 std::string textOf(const Bounds& box)
 {
-  char text[256];
-  std::snprintf(text, sizeof(text), "%.10g,%.10g,%.10g,%.10g,%.10g,%.10g", box.low.x, box.low.y,
-    box.low.z, box.high.x, box.high.y, box.high.z);
+  std::string text;
+  for (const double value : { box.low.x, box.low.y, box.low.z, box.high.x, box.high.y, box.high.z })
+  {
+    text += (text.empty() ? "" : ",") + numberText(value, 10);
+  }
   return text;
 }
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iomanip>
+#include <locale>
 #include <memory>
 #include <sstream>
 
@@ -18,6 +19,7 @@ std::optional<std::string> missedRegion(const StoreDescription& store, const Poi
     return std::nullopt;
   }
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << std::setprecision(10) << "the region lies beside the cloud, so there are no points: the "
        << "cloud has coordinates from (" << cloud.low.x << ", " << cloud.low.y << ", "
        << cloud.low.z << ") to (" << cloud.high.x << ", " << cloud.high.y << ", " << cloud.high.z

@@ -1,5 +1,6 @@
 #include "pointfront/Store/StoreVerification.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/NodeTableSection.h"
 #include "pointfront/Threads/ThreadCrew.h"
@@ -12,7 +13,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <mutex>
 #include <new>
 
@@ -57,11 +57,9 @@ bool sphereEncloses(const Node& node, double distance)
   return distance <= node.radius + glm::length(slackOf(node)) + node.radius * roundingShare;
 }
 
-std::string numberText(double value)
+std::string allDigits(double value)
 {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
+  return numberText(value, 17);
 }
 
 /// At most some ten reports a second, each with what was done since the start.
@@ -393,9 +391,9 @@ std::string StoreVerification::sphereFault(
       const glm::dvec3 world = description_.grid.toWorld(points.origin + GridPosition(p));
       if (!sphereEncloses(node, glm::length(world - node.centre)))
       {
-        return "a point lies " + numberText(glm::length(world - node.centre)) +
+        return "a point lies " + allDigits(glm::length(world - node.centre)) +
           " from the centre of node " + std::to_string(above) + ", outside its sphere of radius " +
-          numberText(node.radius);
+          allDigits(node.radius);
       }
     }
   }

@@ -1,5 +1,6 @@
 #include "pointfront/Tiles/ListedTiles.h"
 
+#include "pointfront/Base/NumberText.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Disk/StopOfReads.h"
 #include "pointfront/Threads/WaitingWork.h"
@@ -8,7 +9,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <cstdio>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -24,10 +24,12 @@ constexpr std::size_t mostTries = 4; ///< tiles of a kind that are tried one aft
 
 std::string boxText(const Bounds& box)
 {
-  char text[200];
-  std::snprintf(text, sizeof text, "(%.10g %.10g %.10g) to (%.10g %.10g %.10g)", box.low.x,
-    box.low.y, box.low.z, box.high.x, box.high.y, box.high.z);
-  return text;
+  const auto corner = [](const glm::dvec3& at)
+  {
+    return "(" + numberText(at.x, 10) + " " + numberText(at.y, 10) + " " + numberText(at.z, 10) +
+      ")";
+  };
+  return corner(box.low) + " to " + corner(box.high);
 }
 
 /// First bytes of a COPC file: its header, and a hierarchy at its end of so many points.

@@ -40,10 +40,18 @@ vtkStandardNewMacro(vtkOpenGLPointFrontPoints);
 namespace
 {
 
-std::string definitions(pointfront::PointColouring::Kind kind, bool ids)
+std::string definitions(pointfront::PointColouring::Kind kind, bool ids, bool squares)
 {
   return "#define POINTFRONT_COLOUR " + std::to_string(static_cast<int>(kind)) +
-    "\n#define POINTFRONT_PICKING " + (ids ? "1\n" : "0\n");
+    "\n#define POINTFRONT_PICKING " + (ids ? "1" : "0") + "\n#define POINTFRONT_SQUARES " +
+    (squares ? "1\n" : "0\n");
+}
+
+/// Ours speak to each other of the squares beside the view.
+bool hasOwnStages(vtkShaderProperty* shaders)
+{
+  return shaders->HasVertexShaderCode() || shaders->HasFragmentShaderCode() ||
+    shaders->HasGeometryShaderCode();
 }
 
 /// World to view without what VTK's matrix lost: `reference` to view is the origin where it is the
@@ -104,9 +112,11 @@ void vtkOpenGLPointFrontPoints::Draw(
   vtkRenderer* renderer, vtkActor* actor, const pointfront::PointDrawing& drawing)
 {
   this->Drawing = &drawing;
-  if (this->Variant != drawing.colouring.kind)
+  const bool squares = this->SquareSize(actor) > 1 && !hasOwnStages(actor->GetShaderProperty());
+  if (this->Variant != drawing.colouring.kind || this->Squares != squares)
   {
     this->Variant = drawing.colouring.kind;
+    this->Squares = squares;
     this->Modified(); // another program
   }
   // Without points in its input the superclass only registers its resources with the window, by a
@@ -116,6 +126,13 @@ void vtkOpenGLPointFrontPoints::Draw(
   this->RenderPieceDraw(renderer, actor);
   this->RenderPieceFinish(renderer, actor);
   this->Drawing = nullptr;
+}
+
+int vtkOpenGLPointFrontPoints::SquareSize(vtkActor* actor) const
+{
+  const double own = this->Drawing->pointSize;
+  return pointfront::squareSizeOf(
+    own > 0.0 ? own : static_cast<double>(actor->GetProperty()->GetPointSize()));
 }
 
 bool vtkOpenGLPointFrontPoints::IsDrawingIds() const
@@ -128,7 +145,7 @@ void vtkOpenGLPointFrontPoints::GetShaderTemplate(
 {
   this->Superclass::GetShaderTemplate(shaders, ren, act);
   vtkShaderProperty* custom = act->GetShaderProperty();
-  const std::string defines = definitions(this->Variant, this->IsDrawingIds());
+  const std::string defines = definitions(this->Variant, this->IsDrawingIds(), this->Squares);
   if (!custom->HasVertexShaderCode())
   {
     std::string source = PointsVSGLSL;
@@ -223,6 +240,24 @@ void vtkOpenGLPointFrontPoints::SetMapperShaderParameters(
       cellBO.Program, drawing.colouring, drawing.reference.z, drawing.stepSize.z);
   }
   this->SetClippingUniforms(cellBO.Program, act);
+  this->SetSquareUniforms(cellBO.Program, ren, act);
+}
+
+void vtkOpenGLPointFrontPoints::SetSquareUniforms(
+  vtkShaderProgram* program, vtkRenderer* ren, vtkActor* actor)
+{
+  if (!this->Squares)
+  {
+    return;
+  }
+  int box[4];
+  static_cast<vtkOpenGLRenderWindow*>(ren->GetRenderWindow())
+    ->GetState()
+    ->vtkglGetIntegerv(GL_VIEWPORT, box);
+  float viewport[4];
+  std::transform(box, box + 4, viewport, [](int value) { return static_cast<float>(value); });
+  program->SetUniform4f("viewportPx", viewport);
+  program->SetUniformf("squareEdge", static_cast<float>(this->SquareSize(actor)));
 }
 
 void vtkOpenGLPointFrontPoints::SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor)
@@ -365,10 +400,7 @@ void vtkOpenGLPointFrontPoints::RenderPieceDraw(vtkRenderer* ren, vtkActor* act)
   this->UpdateShaders(points, ren, act);
   if (points.Program)
   {
-    const double size = this->Drawing->pointSize > 0.0
-      ? this->Drawing->pointSize
-      : static_cast<double>(act->GetProperty()->GetPointSize());
-    state->vtkglPointSize(static_cast<float>(pointfront::squareSizeOf(size)));
+    state->vtkglPointSize(static_cast<float>(this->SquareSize(act)));
     points.VAO->Bind();
     this->DrawBlocks(points);
     vtkOpenGLCheckErrorMacro("failed after drawing points");

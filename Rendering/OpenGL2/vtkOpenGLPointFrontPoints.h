@@ -78,11 +78,15 @@ private:
   void operator=(const vtkOpenGLPointFrontPoints&) = delete;
 
   bool IsDrawingIds() const;
+  /// Edge of the squares, pixels.
+  int SquareSize(vtkActor* actor) const;
+  void SetSquareUniforms(vtkShaderProgram* program, vtkRenderer* ren, vtkActor* actor);
   void DrawBlocks(vtkOpenGLHelper& cellBO);
   void SetClippingUniforms(vtkShaderProgram* program, vtkActor* actor);
 
   const pointfront::PointDrawing* Drawing = nullptr;
   pointfront::PointColouring::Kind Variant = pointfront::PointColouring::Kind::Flat;
+  bool Squares = false; ///< larger than a pixel, by our own shaders
   vtkNew<vtkPolyData> NoInput;
 };
 

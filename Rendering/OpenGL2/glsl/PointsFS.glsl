@@ -4,6 +4,9 @@
 #ifndef POINTFRONT_PICKING
 #define POINTFRONT_PICKING 0
 #endif
+#ifndef POINTFRONT_SQUARES
+#define POINTFRONT_SQUARES 0
+#endif
 
 uniform int PrimitiveIDOffset;
 
@@ -16,6 +19,9 @@ uniform float opacityUniform;
 uniform vec3 specularColorUniform;
 #if POINTFRONT_PICKING
 flat in ivec2 pointIdVSOutput; // low and high 24 bits
+#endif
+#if POINTFRONT_SQUARES
+flat in vec4 shownPixelsVSOutput; // low and high corner
 #endif
 
 //VTK::CustomUniforms::Dec
@@ -37,6 +43,13 @@ flat in ivec2 pointIdVSOutput; // low and high 24 bits
 
 void main()
 {
+#if POINTFRONT_SQUARES
+  if (any(lessThan(gl_FragCoord.xy, shownPixelsVSOutput.xy)) ||
+    any(greaterThan(gl_FragCoord.xy, shownPixelsVSOutput.zw)))
+  {
+    discard;
+  }
+#endif
   //VTK::PositionVC::Impl
   //VTK::UniformFlow::Impl
   //VTK::Depth::Impl

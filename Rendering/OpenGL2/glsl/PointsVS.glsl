@@ -4,12 +4,16 @@
 //        point (the eye; for a parallel view the focal point): float is enough near it.
 // POINTFRONT_COLOUR  0 one colour, 1 colours, 2 values for the table, 3 elevation
 // POINTFRONT_PICKING 1 in passes that draw point ids
+// POINTFRONT_SQUARES 1 where points are larger than a pixel
 //POINTFRONT::Define::Dec
 #ifndef POINTFRONT_COLOUR
 #define POINTFRONT_COLOUR 0
 #endif
 #ifndef POINTFRONT_PICKING
 #define POINTFRONT_PICKING 0
+#endif
+#ifndef POINTFRONT_SQUARES
+#define POINTFRONT_SQUARES 0
 #endif
 
 in uvec3 positionSteps; // grid steps from the node's origin
@@ -33,6 +37,12 @@ invariant gl_Position;             // in all variants: passes compare depths of 
 #if POINTFRONT_PICKING
 uniform isamplerBuffer slotIds;    // x, y: low and high 24 bits of the id of the slot's first point
 flat out ivec2 pointIdVSOutput;
+#endif
+
+#if POINTFRONT_SQUARES
+uniform float squareEdge;          // pixels
+uniform vec4 viewportPx;           // corner and size in the window
+flat out vec4 shownPixelsVSOutput; // low and high corner
 #endif
 
 //VTK::CustomUniforms::Dec
@@ -61,6 +71,33 @@ vec3 positionMC(ivec4 steps, vec3 base)
 {
   return vec3(differenceOf(steps)) * (stepSize * exp2(float(steps.w & 255))) + base;
 }
+
+#if POINTFRONT_SQUARES
+/// GL drops points whose centre is beside the viewport, however far they reach into it: they are
+/// moved to its border, where fragments outside of their own square are discarded. What of a square
+/// is in the viewport lies within half an edge of the border, so that the moved one covers it.
+void pullIntoViewport()
+{
+  shownPixelsVSOutput = vec4(-1.0e9, -1.0e9, 1.0e9, 1.0e9);
+  bvec2 moved = greaterThan(abs(gl_Position.xy), gl_Position.ww);
+  if (gl_Position.w <= 0.0 || !any(moved))
+  {
+    return;
+  }
+  vec2 place = gl_Position.xy / gl_Position.w;
+  vec2 centre = viewportPx.xy + (0.5 + 0.5 * place) * viewportPx.zw;
+  vec2 corner = floor(centre - 0.5 * (squareEdge - 1.0)); // as in SplatSetUp.glsl
+  bvec2 reaches = lessThan(max(corner, viewportPx.xy),
+    min(corner + squareEdge, viewportPx.xy + viewportPx.zw));
+  if (all(reaches))
+  {
+    // Along the other axis GL's own rounding decides, as for all points.
+    shownPixelsVSOutput.xy = mix(shownPixelsVSOutput.xy, corner, moved);
+    shownPixelsVSOutput.zw = mix(shownPixelsVSOutput.zw, corner + squareEdge, moved);
+    gl_Position.xy = mix(gl_Position.xy, sign(place) * gl_Position.w, moved);
+  }
+}
+#endif
 
 void main()
 {
@@ -98,5 +135,8 @@ void main()
   pointIdVSOutput = ivec2(low & 0xffffff, id.y + (low >> 24));
 #endif
   //VTK::Picking::Impl
+#if POINTFRONT_SQUARES
+  pullIntoViewport();
+#endif
   //VTK::CustomEnd::Impl
 }

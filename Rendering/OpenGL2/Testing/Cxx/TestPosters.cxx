@@ -119,6 +119,30 @@ TEST(Posters, AreThePictureOfOneWindow)
   }
 }
 
+/// Squares whose centre is in the tile beside.
+TEST(Posters, OfLargeSquaresHaveNoSeams)
+{
+  Pillars scene(pillarsStore("poster_squares"));
+  scene.mapper->SetStyle(nullptr);
+  for (const bool parallel : { false, true })
+  {
+    scene.renderer->GetActiveCamera()->SetParallelProjection(parallel ? 1 : 0);
+    scene.renderer->GetActiveCamera()->SetParallelScale(1.2);
+    for (const float size : { 2.0f, 7.0f, 20.0f })
+    {
+      scene.actor->GetProperty()->SetPointSize(size);
+      for (const int backend : { vtkPointFrontMapper::SOFTWARE, vtkPointFrontMapper::OPENGL })
+      {
+        const Picture poster = scene.poster(backend, 330, 270, 3);
+        const Picture whole = scene.poster(backend, 330, 270, 1);
+        EXPECT_GT(whole.lit(), 50000) << size;
+        // Rounding of tiles moves a few squares by a pixel.
+        EXPECT_LE(differing(poster, whole, 2), 250) << size << " px, back end " << backend;
+      }
+    }
+  }
+}
+
 /// Halos grow as posters do: what one costs grows with its width, not with the square of it.
 /// Of what lies beside a tile only what reaches into it is loaded, and takes a part of the budget.
 TEST(Posters, OfLargeSplatsNeedFewPointsBesideTheTile)

@@ -125,6 +125,10 @@ TEST(Selection, FindsThePointOfEachPixel)
         std::to_string(static_cast<int>(sizePx));
       scene.expectWhatIsShown(what.c_str());
     }
+    // Squares reach into the view from beside.
+    scene.lookFrom({ 0.3, -1.5, 1.6 }, { 0.0, 0.0, 0.0 });
+    scene.mapper->SetPointSize(20.0);
+    scene.expectWhatIsShown(("back end " + std::to_string(backend) + ", border").c_str());
   }
 }
 

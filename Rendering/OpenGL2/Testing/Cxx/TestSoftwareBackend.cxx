@@ -230,6 +230,36 @@ TEST(SoftwareBackend, DrawsPartsOfWindows)
   scene.expectAlike("resized");
 }
 
+/// The border is inside of the cloud, and of squares that have their centre beside it.
+TEST(SoftwareBackend, DrawsWhatReachesIntoTheViewAsOpenGLDoes)
+{
+  Sheet scene;
+  scene.window->SetSize(420, 260);
+  scene.lookFrom({ 0.2871, -1.4633, 1.6127 }, { 0.0, 0.0, 0.0 }); // no two points at one depth
+  scene.renderer->SetViewport(0.1, 0.2, 0.55, 0.9);
+  vtkNew<vtkRenderer> right;
+  right->AddActor(scene.actor);
+  right->SetViewport(0.6, 0.0, 1.0, 0.7);
+  right->GetActiveCamera()->DeepCopy(scene.renderer->GetActiveCamera());
+  right->GetActiveCamera()->Azimuth(50.0);
+  scene.window->AddRenderer(right);
+  for (const bool parallel : { false, true })
+  {
+    for (const auto& renderer : { scene.renderer.Get(), right.Get() })
+    {
+      renderer->GetActiveCamera()->SetParallelProjection(parallel ? 1 : 0);
+      renderer->GetActiveCamera()->SetParallelScale(0.4);
+      // The near plane cuts the sheet: what is before it stays hidden.
+      renderer->GetActiveCamera()->SetClippingRange(2.0, 50.0);
+    }
+    for (const double size : { 2.0, 20.0, 60.0, 150.0 })
+    {
+      scene.mapper->SetPointSize(size);
+      scene.expectAlike((std::to_string(size) + " px").c_str());
+    }
+  }
+}
+
 TEST(SoftwareBackend, DrawsIntoMultisampledTargets)
 {
   Sheet scene;

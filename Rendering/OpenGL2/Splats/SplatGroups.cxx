@@ -16,10 +16,53 @@ namespace pointfront
 namespace
 {
 
-/// A sphere or an ellipse may be longer on screen than its radius at its centre says.
-constexpr float mostStretch = 1.6f;
+/// Depth of the nearest corner of the node's box.
+float nearestDepth(const RasterItem& item, const RasterItems& items)
+{
+  const NodeColumns& node = item.node();
+  float depth = item.camera.matrix[2][3];
+  for (int axis = 0; axis < 3; ++axis)
+  {
+    const double step =
+      items.plan().grid.scale[axis] * std::ldexp(1.0, static_cast<int>(item.positions.shift));
+    const double half = static_cast<double>(node.halfSize[axis]) / step;
+    const float slope = item.camera.matrix[2][axis];
+    depth += slope * static_cast<float>(half - item.positions.steps[axis]) -
+      std::abs(slope) * static_cast<float>(half);
+  }
+  return std::max(item.camera.nearDepth, depth);
+}
 
-/// Diameter in pixels that no splat of the node exceeds.
+/// Edge in pixels of a square around any splat of at most `pixels` radius at its centre's depth:
+/// perspective makes it longer aside of the line of sight, without end where it reaches the eye's
+/// plane. Of what setUpEllipse, setUpExact and setUpSphere say the most.
+float largestExtent(float pixels, const RasterCamera& camera, const FrameCamera& view)
+{
+  const float largestView = static_cast<float>(std::max(view.width, view.height));
+  float half = pixels;
+  if (!camera.parallel)
+  {
+    const float size = pixels / camera.scaleY; // radii a unit of depth
+    if (!(size * size < 0.81f))
+    {
+      return largestView;
+    }
+    const auto width = static_cast<float>(view.width), height = static_cast<float>(view.height);
+    const float right = std::max(width - camera.centreX, camera.centreX) / camera.scaleX;
+    const float up = std::max(height - camera.centreY, camera.centreY) / camera.scaleY;
+    const float edge = std::max(right, up);
+    // A centre may be beside the view, as far as meetsView has it.
+    const float reach = size * 1.01f + 1.0f / camera.scaleX;
+    const float aside = edge + reach * std::sqrt(1.0f + edge * edge);
+    const float bent = 1.0f + 5.27f * size * size; // more than 1 / (1 - size * size)
+    half = size * std::max(camera.scaleX, camera.scaleY) * bent *
+      (1.0f + 0.5f * aside * aside + size * aside);
+  }
+  const float extent = 2.0f * (half + 1.0f) + 1.0f; // low-pass, and pixels that are cut
+  return extent < largestView ? extent : largestView;
+}
+
+/// Edge in pixels of a square that each splat of the node fits into, as far as it is in the view.
 float largestSplat(const RasterItem& item, const RasterItems& items)
 {
   if (item.passes.squares)
@@ -28,30 +71,15 @@ float largestSplat(const RasterItem& item, const RasterItems& items)
   }
   const RasterCamera& camera = item.camera;
   const SplatPass& pass = item.passes.blended ? item.passes.second : item.passes.first;
-  const glm::vec3 half = item.node().halfSize * items.radiusFactor();
-  float nearest = camera.nearDepth;
-  if (!camera.parallel)
-  {
-    const NodeColumns& node = item.node();
-    float depth = camera.matrix[2][3];
-    for (int axis = 0; axis < 3; ++axis)
-    {
-      const double step =
-        items.plan().grid.scale[axis] * std::ldexp(1.0, static_cast<int>(item.positions.shift));
-      const double steps =
-        static_cast<double>(node.halfSize[axis]) / step - item.positions.steps[axis];
-      depth += camera.matrix[2][axis] * static_cast<float>(steps);
-    }
-    nearest = std::max(nearest, depth - glm::length(half));
-  }
-  const float reach = camera.parallel ? 1.0f : nearest;
+  const float reach = camera.parallel ? 1.0f : nearestDepth(item, items);
   const float share = item.passes.blended ? item.passes.secondRadius : item.passes.firstRadius;
   float pixels = PointShapes::largestRadius(item) * share * camera.scaleY / reach;
   if (item.style->size.mode == SplatSize::Mode::Pixels)
   {
-    pixels = static_cast<float>(item.style->size.value);
+    pixels = 0.5f * static_cast<float>(item.style->size.value) * share;
   }
-  return 2.0f * mostStretch * std::clamp(pixels, pass.leastRadius, pass.mostRadius);
+  return largestExtent(
+    std::clamp(pixels, pass.leastRadius, pass.mostRadius), camera, items.plan().camera);
 }
 
 SlotRecords::Record recordOf(const RasterItem& item, const FramePlan& plan)

@@ -180,6 +180,26 @@ TEST(SplatExtremes, ViewAnglesOfOneAndOf170Degrees)
   }
 }
 
+/// Perspective makes small splats wide, which were cut to the largest point of GL.
+TEST(SplatExtremes, WideViewsStretchSplatsBeyondAnyPointOfGL)
+{
+  Extreme scene(storeOfPoints("wide_views", plane(60, 0.05)));
+  scene.window->SetSize(1000, 700);
+  for (const double angle : { 150.0, 170.0, 179.0 })
+  {
+    for (const std::string& technique : techniqueWords)
+    {
+      scene.lookFrom({ 0.01, -0.003, 0.15 }, { 0.01, 0.0, 0.0 });
+      scene.renderer->GetActiveCamera()->SetViewAngle(angle);
+      scene.renderer->GetActiveCamera()->SetClippingRange(0.01, 100.0);
+      scene.mapper->SetBackendToOpenGL();
+      const Picture gl = scene.with(technique, 0.1);
+      scene.mapper->SetBackendToSoftware();
+      EXPECT_LE(differing(gl, scene.draw(), 2), 3500) << technique << ", " << angle;
+    }
+  }
+}
+
 TEST(SplatExtremes, PicturesOfOnePixelAndLargeOnes)
 {
   Extreme scene(storeOfPoints("sizes", plane(40, 0.25)));

@@ -70,8 +70,9 @@ vec3 normalAt(float depth)
   return normalize(vec3(here - centre, splat.centre.z - depth));
 #else
   vec3 n = vec3(splat.normal.xy, -splat.normal.z);
-  float size = length(n);
-  n = size > 0.0 ? n / size : n;
+  float square = dot(n, n);
+  bool known = square > 1e-12 && square < 1e12; // as splats have it; not of NaN
+  n = known ? n / sqrt(square) : vec3(0.0);
   return n.z < 0.0 ? -n : n;
 #endif
 }

@@ -330,8 +330,9 @@ void WinnerResolve::putNormal(
   {
     n = glm::vec3(0.0f);
   }
-  const float length = glm::length(n);
-  n = length > 0.0f ? n / length : n;
+  const float square = glm::dot(n, n);
+  const bool known = square > 1e-12f && square < 1e12f; // as splats have it; not of NaN
+  n = known ? n / std::sqrt(square) : glm::vec3(0.0f);
   n = n.z < 0.0f && item.passes.first.shape != SplatShape::Sphere ? -n : n;
   normal[0] = n.x;
   normal[1] = n.y;

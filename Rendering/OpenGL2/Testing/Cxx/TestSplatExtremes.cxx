@@ -280,6 +280,13 @@ TEST(SplatExtremes, NormalsThatAreNone)
     EXPECT_LE(differing(picture, scene.draw(), 2), 60) << technique;
     scene.mapper->SetBackendToOpenGL();
   }
+  // Light leaves the colour of a point without a normal.
+  const Picture lit = scene.with("\"technique\": \"points\", \"light\": true", 9.0, "px");
+  EXPECT_GT(lit.lit(), 6 * 70);
+  scene.mapper->SetBackendToSoftware();
+  const Picture software = scene.draw();
+  EXPECT_EQ(software.lit(), lit.lit());
+  EXPECT_LE(differing(lit, software, 2), 20);
 }
 
 /// Millimetres shown as metres, and far beyond that: discs keep their normals, whose numbers an

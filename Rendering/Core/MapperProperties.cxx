@@ -1,6 +1,8 @@
 #include "MapperProperties.h"
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include <vtkActor.h>
 #include <vtkCamera.h>
@@ -143,8 +145,58 @@ void centre(FrameCamera& frame)
     frame.viewToClip[3][axis] = 0.0;
     frame.storeToView[3][axis] += aside;
     frame.referenceInView[axis] += aside;
-    frame.cameraInView[axis] = aside;
+    frame.cameraToView[3][axis] = aside;
   }
+}
+
+/// A row of `turn` that takes what a row of a projection says of other axes into the view. Gives
+/// what is left of the row: the factor of its own axis, with its sign.
+double straightened(const glm::dvec3& row, int axis, double length, glm::dmat3& turn)
+{
+  const double factor = std::copysign(length, row[axis]);
+  for (int column = 0; column < 3; ++column)
+  {
+    turn[column][axis] = row[column] / factor;
+  }
+  return factor;
+}
+
+/// A projection may shear or turn what the view shows: that of an eye of a stereo pair in a
+/// parallel view, oblique angles, a shear or a transformation of the user's. This becomes a part of
+/// the view.
+void straighten(FrameCamera& frame)
+{
+  glm::dmat4& clip = frame.viewToClip;
+  glm::dmat3 turn(1.0);
+  glm::dvec3 factors(clip[0][0], clip[1][1], clip[2][2]);
+  // With perspective z of the view is the depth that x and y are divided by: it stays.
+  for (int axis = 0; axis < (frame.parallel ? 3 : 2); ++axis)
+  {
+    glm::dvec3 row(clip[0][axis], clip[1][axis], frame.parallel ? clip[2][axis] : 0.0);
+    const double length = axis < 2 ? glm::length(glm::dvec2(row)) : glm::length(row);
+    glm::dvec3 others = row;
+    others[axis] = 0.0;
+    if (length > 0.0 && others != glm::dvec3(0.0))
+    {
+      factors[axis] = straightened(row, axis, length, turn);
+    }
+  }
+  if (turn == glm::dmat3(1.0) || glm::determinant(turn) == 0.0)
+  {
+    return;
+  }
+  const glm::dmat4 wholeTurn(turn);
+  clip = clip * glm::inverse(wholeTurn);
+  for (int axis = 0; axis < (frame.parallel ? 3 : 2); ++axis)
+  {
+    for (int column = 0; column < (frame.parallel ? 3 : 2); ++column)
+    {
+      clip[column][axis] = column == axis ? factors[axis] : 0.0; // without rounding
+    }
+  }
+  frame.storeToView = wholeTurn * frame.storeToView;
+  frame.referenceInView = turn * frame.referenceInView;
+  frame.cameraToView = wholeTurn;
 }
 
 } // namespace
@@ -166,6 +218,7 @@ FrameCamera cameraOf(vtkRenderer* renderer, vtkActor* actor)
   frame.referenceInView = withoutNoise(worldToView, world);
   frame.storeToView = worldToView;
   frame.reference = world;
+  straighten(frame);
   centre(frame);
   if (!actor->GetIsIdentity())
   {

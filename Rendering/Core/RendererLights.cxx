@@ -53,7 +53,9 @@ glm::dvec3 unit(const glm::dvec3& vector, const glm::dvec3& usual)
   return result;
 }
 
-FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& cameraInView)
+/// `toView`        world to the view of VTK's camera
+/// `cameraToView`  from there to the view of the frame
+FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dmat4& cameraToView)
 {
   constexpr glm::dvec3 ahead(0.0, 0.0, -1.0);
   double from[3];
@@ -61,15 +63,16 @@ FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dvec3& 
   light->GetTransformedPosition(from);
   light->GetTransformedFocalPoint(to);
   const glm::dvec3 place(from[0], from[1], from[2]), aim(to[0], to[1], to[2]);
-  const glm::dvec3 direction = unit(glm::dmat3(toView) * (aim - place), ahead);
+  const glm::dmat3 turn(cameraToView);
+  const glm::dvec3 direction = unit(turn * (glm::dmat3(toView) * (aim - place)), ahead);
   const double* const colour = light->GetDiffuseColor();
   FrameLight result;
   result.colour = glm::vec3(light->GetIntensity() * glm::dvec3(colour[0], colour[1], colour[2]));
-  result.towards = glm::vec3(light->LightTypeIsHeadlight() ? -ahead : -direction);
+  result.towards = glm::vec3(light->LightTypeIsHeadlight() ? unit(turn * -ahead, -ahead) : -direction);
   result.positional = light->GetPositional() != 0;
   if (result.positional)
   {
-    result.place = glm::vec3(glm::dvec3(toView * glm::dvec4(place, 1.0)) + cameraInView);
+    result.place = glm::vec3(cameraToView * (toView * glm::dvec4(place, 1.0)));
     result.aim = glm::vec3(direction);
     result.coneCosine = light->GetConeAngle() < widestCone
       ? static_cast<float>(std::cos(glm::radians(light->GetConeAngle())))
@@ -94,7 +97,7 @@ std::vector<FrameLight> lightsOf(vtkRenderer* renderer, const FrameCamera& camer
   {
     if (light->GetSwitch())
     {
-      lights.push_back(lightOf(light, toView, camera.cameraInView));
+      lights.push_back(lightOf(light, toView, camera.cameraToView));
     }
   }
   if (lights.empty())

@@ -1,11 +1,13 @@
-#include "Scene.h"
+#include "Sheet.h"
 
 #include <vtkDepthPeelingPass.h>
 #include <vtkHardwareSelector.h>
 #include <vtkIdTypeArray.h>
 #include <vtkSelection.h>
 #include <vtkSelectionNode.h>
+#include <vtkTransform.h>
 
+#include <functional>
 #include <set>
 
 using namespace pointfront;
@@ -143,6 +145,49 @@ TEST(Views, StereoDrawsBothEyes)
   }
   EXPECT_GT(red, 20);
   EXPECT_GT(cyan, 20);
+}
+
+/// VTK's own mapper takes the camera's matrices as they are.
+TEST(Views, ProjectionsThatShearOrTurnPutPointsWhereVTKDoes)
+{
+  using Change = std::function<void(vtkCamera*, vtkRenderWindow*)>;
+  const Change eye = [](vtkCamera* camera, vtkRenderWindow* window)
+  {
+    camera->SetEyeAngle(8.0);
+    window->SetStereoTypeToLeft();
+    window->StereoRenderOn();
+  };
+  const Change shear = [](vtkCamera* camera, vtkRenderWindow*)
+  { camera->SetViewShear(0.3, 0.2, 1.0); };
+  const Change oblique = [](vtkCamera* camera, vtkRenderWindow*)
+  { camera->SetObliqueAngles(70.0, 60.0); };
+  const Change turned = [](vtkCamera* camera, vtkRenderWindow*)
+  {
+    vtkNew<vtkTransform> turn;
+    turn->RotateZ(25.0);
+    camera->SetUserTransform(turn);
+  };
+  for (const bool parallel : { true, false })
+  {
+    for (const Change& change : { eye, shear, oblique, turned })
+    {
+      Sheet scene;
+      vtkCamera* const camera = scene.renderer->GetActiveCamera();
+      camera->SetParallelProjection(parallel);
+      camera->SetParallelScale(2.5);
+      change(camera, scene.window);
+      scene.renderer->ResetCameraClippingRange();
+      scene.mapper->SetPointSize(3.0);
+      scene.expectAlike("points, whose matrices OpenGL takes from VTK");
+      const Picture points = scene.with(vtkPointFrontMapper::OPENGL);
+      vtkNew<vtkPointFrontStyle> style;
+      ASSERT_TRUE(style->LoadJSON(R"({"default":{"technique":"splats"}})"));
+      scene.mapper->SetStyle(style);
+      scene.expectAlike("splats");
+      const Picture splats = scene.with(vtkPointFrontMapper::SOFTWARE);
+      EXPECT_LE(differing(points, splats, 40), 0.1 * points.lit()); // rims
+    }
+  }
 }
 
 TEST(Views, TheBoundsAreThoseOfTheWholeCloudBeforeAnythingIsLoaded)

@@ -25,16 +25,17 @@ struct ViewportMargin
 struct FrameCamera
 {
   glm::dmat4 storeToView{ 1.0 }; ///< affine; an actor's matrix is part of it
-  glm::dmat4 viewToClip{ 1.0 }; ///< any frustum: off-axis and sheared ones too
+  /// Any frustum, off-axis too. Clip x does not depend on y, nor y on x; a parallel view's on no z.
+  glm::dmat4 viewToClip{ 1.0 };
   /// The reference point in store coordinates. Positions are taken relative to it before they
   /// become floats: the eye, in a parallel view the focal point (docs/adr/0004).
   glm::dvec3 reference{ 0.0 };
   /// The place of the reference point in view space: exactly 0 when it is the eye, so that no
   /// rounding noise of two large terms enters.
   glm::dvec3 referenceInView{ 0.0 };
-  /// Where VTK's camera is, from which an eye of a stereo pair stands aside: what is in that
-  /// camera's view space is moved by this into the eye's.
-  glm::dvec3 cameraInView{ 0.0 };
+  /// Takes what is in the view space of VTK's camera to this view's: an eye of a stereo pair stands
+  /// aside, and a projection may shear or turn.
+  glm::dmat4 cameraToView{ 1.0 };
   bool parallel = false;
   int width = 1; ///< width of the viewport and its margin, pixels
   int height = 1;

@@ -3,9 +3,10 @@
 import json
 import os
 import shutil
+import subprocess
 import unittest
 
-from tool import DATA, ToolTest, run
+from tool import DATA, TOOL, ToolTest, run
 
 TRIM = DATA / "las/real/autzen_trim.las"
 LAZ = DATA / "laz/extrabytes.laz"
@@ -41,6 +42,20 @@ class Index(ToolTest):
         verified = self.succeed("verify", side, "--json").json
         self.assertTrue(verified["ok"])
         self.assertEqual(verified["points_checked"], 110000)
+
+    def test_an_index_names_its_file_by_its_path_relative_to_itself(self):
+        for number, arguments in enumerate((
+                ("points.las",), ("./points.las",), ("points.las", "-o", "other.pfindex"),
+                ("points.las", "-o", "sides/points.pfindex"))):
+            folder = self.folder / f"before{number}"
+            (folder / "sides").mkdir(parents=True)
+            shutil.copyfile(TRIM, folder / "points.las")
+            subprocess.run([TOOL, "index", *arguments], cwd=folder, check=True,
+                           capture_output=True)
+            moved = self.folder / f"after{number}"
+            folder.rename(moved)
+            side, = moved.rglob("*.pfindex")
+            self.assertEqual(self.succeed("info", side, "--json").json["points"], 110000)
 
     def test_export_gives_every_point_and_takes_filters(self):
         las = self.copy()

@@ -131,7 +131,9 @@ std::string relativeName(const std::string& lasPath, const std::string& sidePath
 {
   namespace fs = std::filesystem;
   std::error_code failure;
-  const fs::path from = fs::weakly_canonical(sidePath, failure).parent_path();
+  // Absolute first: of a bare name that does not exist yet the canonical path is the name.
+  const fs::path from =
+    fs::weakly_canonical(fs::absolute(sidePath, failure), failure).parent_path();
   const fs::path to = fs::weakly_canonical(lasPath, failure);
   const fs::path relative = to.lexically_relative(from);
   return relative.empty() ? to.string() : relative.string();

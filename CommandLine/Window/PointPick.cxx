@@ -17,7 +17,6 @@ namespace pointfront
 
 namespace
 {
-constexpr int reachPx = 6; // beside the mouse: points are small
 }
 
 Result<std::optional<PickedPoint>> pointAt(

@@ -15,7 +15,10 @@ namespace pointfront
 
 class MappedStores;
 
-/// The point that is drawn at a pixel, or next to it within some pixels. The window's picture is
+/// Pixels beside the mouse in which a point is looked for: points are small.
+constexpr int reachPx = 6;
+
+/// The point that is drawn at a pixel, or within `reachPx` of it. The window's picture is
 /// lost: it has to be drawn again.
 /// Gives   nothing where there is background.
 /// Errors  those of readPoint().

@@ -3,6 +3,7 @@
 #include "CameraMotion.h"
 #include "Frustum.h"
 #include "MappedStores.h"
+#include "PointPick.h"
 
 #include <vtkRenderer.h>
 #include <vtkRenderWindow.h>
@@ -18,7 +19,6 @@ namespace pointfront
 
 namespace
 {
-constexpr int reachPx = 6; // beside the mouse: points are small
 constexpr float background = 1.0f; // depth
 constexpr double leastScale = 1.0e-6; // smallest scale of a parallel view
 } // namespace

@@ -13,7 +13,8 @@ namespace pointfront
 
 /// An object that all clouds of a window share: one for each type and window, made on the first
 /// request. It lives as long as one cloud holds it. Clouds of a window that is gone may hold its:
-/// the next window, often at the same address, gets another. Threads  the renderer's only.
+/// the next window, often at the same address, gets another.
+/// Threads  the renderer's only.
 template <typename Shared>
 std::shared_ptr<Shared> perWindow(vtkWindow* window)
 {

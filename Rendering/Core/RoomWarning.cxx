@@ -17,7 +17,10 @@ std::string leftOutOf(const StoreDescription& store, const std::vector<std::uint
   std::set<std::uint16_t> codes; // several drawings may each leave one out
   for (const std::uint16_t layer : layers)
   {
-    layer < store.layers.size() ? void(codes.insert(store.layers[layer].objectClass)) : void();
+    if (layer < store.layers.size())
+    {
+      codes.insert(store.layers[layer].objectClass);
+    }
   }
   std::string text;
   for (const std::uint16_t code : codes)

@@ -317,9 +317,10 @@ void vtkPointFrontMapper::FinishFrame(
   statistics.limitedByGpuMemory = statistics.limitedByGpuMemory || noRoom;
   for (std::size_t layer = 0; noRoom && layer < statistics.layerPoints.size(); ++layer)
   {
-    statistics.layerPoints[layer] > 0
-      ? statistics.layersLeftOut.push_back(static_cast<std::uint16_t>(layer))
-      : void();
+    if (statistics.layerPoints[layer] > 0)
+    {
+      statistics.layersLeftOut.push_back(static_cast<std::uint16_t>(layer));
+    }
   }
   statistics.complete = view.Complete;
   view.Statistics = statistics;

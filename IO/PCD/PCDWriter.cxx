@@ -53,7 +53,8 @@ private:
   std::string counts_;
 };
 
-void addAttribute(std::size_t column, const Attribute& attribute, FieldNames& names,
+/// `name`: of an attribute that the format gives none.
+void addAttribute(std::size_t column, const Attribute& attribute, const std::string& name,
   RecordEncoder& encoder, FieldLines& lines)
 {
   static const char* const colours[3] = { "red", "green", "blue" };
@@ -85,7 +86,7 @@ void addAttribute(std::size_t column, const Attribute& attribute, FieldNames& na
   }
   if (!colour && !normal)
   {
-    lines.add(names.add(fieldName(attribute.name)), type, attribute.components);
+    lines.add(name, type, attribute.components);
   }
 }
 } // namespace
@@ -152,17 +153,17 @@ std::string originLine(const glm::dvec3& origin)
 }
 } // namespace
 
-RecordFile::Header PCDWriter::describe(const AttributeSchema& schema, RecordEncoder& encoder) const
+RecordFile::Header PCDWriter::describe(
+  const AttributeSchema& schema, const FieldNames& names, RecordEncoder& encoder) const
 {
   FieldLines lines;
   for (const char* axis : { "x", "y", "z" })
   {
     lines.add(axis, encoder.coordinates().type);
   }
-  FieldNames names(schema);
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    addAttribute(c, schema[c], names, encoder, lines);
+    addAttribute(c, schema[c], names[c], encoder, lines);
   }
   const std::string fields =
     originLine(encoder.coordinates().origin) + "VERSION 0.7\n" + lines.text();

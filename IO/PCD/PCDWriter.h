@@ -30,7 +30,8 @@ public:
 
 private:
   CoordinateCoding coordinates(const SinkDescription& description) override;
-  RecordFile::Header describe(const AttributeSchema& schema, RecordEncoder& encoder) const override;
+  RecordFile::Header describe(
+    const AttributeSchema& schema, const FieldNames& names, RecordEncoder& encoder) const override;
 
   Coordinates coordinates_;
   std::vector<std::string> findings_;

@@ -56,20 +56,19 @@ PLYWriter::PLYWriter(std::string path)
 {
 }
 
-RecordFile::Header PLYWriter::describe(const AttributeSchema& schema, RecordEncoder& encoder) const
+RecordFile::Header PLYWriter::describe(
+  const AttributeSchema& schema, const FieldNames& names, RecordEncoder& encoder) const
 {
   std::string properties = "property double x\nproperty double y\nproperty double z\n";
-  FieldNames names(schema);
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    const std::string name = names.add(fieldName(schema[c].name));
     const bool wide = schema[c].type == ScalarType::Int64 || schema[c].type == ScalarType::UInt64;
     for (std::size_t k = 0; k < schema[c].components; ++k)
     {
       const ScalarType type =
         encoder.add(c, k, wide ? std::make_optional(ScalarType::Float64) : std::nullopt);
-      properties +=
-        std::string("property ") + typeName(type) + " " + propertyName(schema[c], name, k) + "\n";
+      properties += std::string("property ") + typeName(type) + " " +
+        propertyName(schema[c], names[c], k) + "\n";
     }
   }
   return [properties](std::uint64_t points)

@@ -16,8 +16,9 @@ namespace
 constexpr std::size_t flushBytes = 1 << 20;
 
 /// Columns are separated by blanks or commas, so names have none.
-std::string plainName(std::string name)
+std::string plainName(const std::string& attribute)
 {
+  std::string name = attribute;
   const auto ends = [](char c)
   { return c == ' ' || c == ',' || c == '"' || (c >= 0 && c < ' ') || c == 0x7f; };
   std::replace_if(name.begin(), name.end(), ends, '_');
@@ -61,6 +62,7 @@ struct XYZWriter::State
   char separator = ' ';
   std::unique_ptr<OutputFile> file;
   std::vector<Column> columns;
+  std::vector<std::string> findings;
   int decimals[3] = { 0, 0, 0 }; ///< decimals of x, y and z
   std::string text; ///< not yet written
 
@@ -104,16 +106,17 @@ Result<void> XYZWriter::begin(const SinkDescription& description)
   }
   const std::string separator(1, state_->separator);
   state_->text = (separator == "," ? "x" : "# x") + separator + "y" + separator + "z";
-  FieldNames names(description.schema);
-  for (const Attribute& attribute : description.schema)
+  const FieldNames names(description.schema, plainName);
+  state_->findings = names.findings();
+  for (std::size_t c = 0; c < description.schema.size(); ++c)
   {
-    const std::string name = names.add(plainName(attribute.name));
+    const Attribute& attribute = description.schema[c];
     const bool fixed = isScaled(attribute) && !isFloat(attribute);
     state_->columns.push_back(
       { attribute, fixed, fixed ? decimalsOf(attribute.scale, attribute.offset) : 0 });
     for (std::size_t k = 0; k < attribute.components; ++k)
     {
-      state_->text += separator + columnName(attribute, name, k);
+      state_->text += separator + columnName(attribute, names[c], k);
     }
   }
   state_->text += "\n";
@@ -179,6 +182,11 @@ Result<void> XYZWriter::finish()
     return done;
   }
   return state_->file->publish();
+}
+
+std::vector<std::string> XYZWriter::findings() const
+{
+  return state_->findings;
 }
 
 } // namespace pointfront

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace pointfront
 {
@@ -34,6 +35,7 @@ public:
   Result<void> begin(const SinkDescription& description) override;
   Result<void> append(const PointBatch& batch) override;
   Result<void> finish() override;
+  std::vector<std::string> findings() const override; ///< names that FieldNames changes
 
 private:
   struct State;

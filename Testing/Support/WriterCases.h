@@ -132,6 +132,10 @@ inline void expectNamesToldApart(const WriterCase& writerCase)
   description.schema.add({ "Intensity", ScalarType::UInt16 });
   description.schema.add({ "red", ScalarType::UInt16 });
   description.schema.add({ "rgb", ScalarType::UInt16, 3 });
+  for (const char* name : { "a b", "a_b", "scalar_q", "q" })
+  {
+    description.schema.add({ name, ScalarType::UInt16 });
+  }
   PointBatch batch;
   batch.resize(1, description.schema);
   batch.positions[0] = glm::dvec3(1, 2, 3);
@@ -149,12 +153,18 @@ inline void expectNamesToldApart(const WriterCase& writerCase)
   ASSERT_TRUE(writer->begin(description));
   ASSERT_TRUE(writer->append(batch));
   ASSERT_TRUE(writer->finish());
+  const std::vector<std::string> renamed{ "The attribute 'z ' is written as 'z__2'.",
+    "The attribute 'Intensity' is written as 'Intensity_2'.",
+    "The attribute 'red' is written as 'red_2'.", "The attribute 'a b' is written as 'a_b_2'.",
+    "The attribute 'scalar_q' is written as 'scalar_q_2'." };
+  EXPECT_EQ(writer->findings(), renamed);
   const auto source = openPoints(writerCase.format, path);
   ASSERT_TRUE(source);
   const PointBatch all = readPoints(*source);
   EXPECT_EQ(all.positions, batch.positions);
   const AttributeSchema& schema = source->description().schema;
-  const std::vector<std::string> names{ "intensity", "z__2", "Intensity_2", "red_2", "rgb" };
+  const std::vector<std::string> names{ "intensity", "z__2", "Intensity_2", "red_2", "rgb", "a_b_2",
+    "a_b", "q_2", "q" };
   ASSERT_EQ(schema.size(), names.size());
   for (std::size_t c = 0; c < names.size(); ++c)
   {

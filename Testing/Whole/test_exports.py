@@ -83,6 +83,28 @@ class Exports(ToolTest):
         self.assertIn("no point", outcome.err)
         self.assertIn("0 points", outcome.out)
 
+    def test_names_that_change_are_told_and_right_ones_stay(self):
+        """The first of "a b" and "a_b" took the name that the second one has."""
+        rows = "x,y,z,a b,a_b,wärme\n" + "".join(f"{k},{k},0,{k},{k + 100},{k + 7}\n"
+                                                for k in range(10))
+        text = self.folder / "in.csv"
+        text.write_text(rows, encoding="utf-8")
+        store = self.build(text)
+        for kind, warm in (("csv", "wärme"), ("xyz", "wärme"), ("ply", "w__rme"),
+                           ("pcd", "w__rme")):
+            out, outcome = self.export(store, f"n.{kind}")
+            told = "The attribute 'a b' is written as 'a_b_2'."
+            self.assertEqual(outcome.err.count(told), 1, outcome.err)
+            self.assertEqual(outcome.err.count("is written as"), 1 + (warm != "wärme"))
+            self.assertEqual(f"'wärme' is written as '{warm}'" in outcome.err, warm != "wärme")
+            self.succeed("build", out, "-o", self.folder / "b.pfront", "--force")
+            back, _ = self.export(self.folder / "b.pfront", "b.csv")
+            lines = [line.split(",") for line in back.read_text(encoding="utf-8").splitlines()]
+            at = [lines[0].index(c) for c in ("x", "a_b", "a_b_2", warm)]
+            for row in lines[1:]:
+                x, kept, other, heat = (int(float(row[k])) for k in at)
+                self.assertEqual((kept, other, heat), (x + 100, x, x + 7), kind)
+
     def test_coordinates_are_transformed(self):
         las = write_las(self.folder / "a.las", [(500000.0, 5600000.0, 100.0, 0, 0, 0),
                                                 (500010.0, 5600010.0, 110.0, 0, 0, 0)])

@@ -227,13 +227,42 @@ std::vector<FieldRole> rolesOf(const std::vector<std::string>& names)
   return roles;
 }
 
-FieldNames::FieldNames(const AttributeSchema& schema)
+FieldNames::FieldNames(const AttributeSchema& schema, Cleaned cleaned)
+  : names_(schema.size())
 {
-  for (const Attribute& attribute : schema)
+  std::vector<std::size_t> turns[3]; // who needs no other name comes first
+  for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    if (attribute.components == 3 && (attribute.name == "rgb" || attribute.name == "normal"))
+    const std::string& own = schema[c].name;
+    if (schema[c].components == 3 && (own == "rgb" || own == "normal"))
     {
-      vectors_.insert(attribute.name);
+      names_[c] = own;
+      vectors_.insert(own);
+      taken_.insert(own);
+      continue;
+    }
+    const FieldRole role = roleOf(own);
+    const bool readAsItself = role.kind == FieldRole::Kind::Attribute && role.attribute == own;
+    turns[cleaned(own) != own ? 2 : readAsItself ? 0 : 1].push_back(c);
+  }
+  for (const std::vector<std::size_t>& turn : turns)
+  {
+    for (const std::size_t c : turn)
+    {
+      const std::string name = cleaned(schema[c].name);
+      names_[c] = name;
+      for (int copy = 2; !take(names_[c]); ++copy)
+      {
+        names_[c] = name + "_" + std::to_string(copy);
+      }
+    }
+  }
+  for (std::size_t c = 0; c < schema.size(); ++c)
+  {
+    if (names_[c] != schema[c].name)
+    {
+      findings_.push_back(
+        "The attribute '" + schema[c].name + "' is written as '" + names_[c] + "'.");
     }
   }
 }
@@ -248,16 +277,6 @@ bool FieldNames::take(const std::string& name)
     return false;
   }
   return taken_.insert(role.kind == FieldRole::Kind::Attribute ? role.attribute : name).second;
-}
-
-std::string FieldNames::add(const std::string& name)
-{
-  std::string tried = name;
-  for (int copy = 2; !take(tried); ++copy)
-  {
-    tried = name + "_" + std::to_string(copy);
-  }
-  return tried;
 }
 
 } // namespace pointfront

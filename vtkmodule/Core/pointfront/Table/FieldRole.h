@@ -42,20 +42,28 @@ FieldRole roleOf(std::string_view name);
 /// of that coordinate are attributes of their own names. e and n count only together.
 std::vector<FieldRole> rolesOf(const std::vector<std::string>& names);
 
-/// Names for the fields of a file beside x, y and z, which roleOf() tells apart.
+/// Names of the attributes of a schema as the fields of a file beside x, y and z, which roleOf()
+/// tells apart: the attribute's own as `cleaned` has it, with "_2", "_3" ... behind it if it would
+/// be read as a coordinate, as a component of `rgb` or `normal`, as another attribute, or not at
+/// all. An attribute that is read by its own name keeps it, wherever it stands.
+/// `rgb` and `normal`  of three components have names that the format gives: red, nx ...
 class FieldNames
 {
 public:
-  /// Attributes `rgb` and `normal` of three components have names of their own: red, nx ...
-  explicit FieldNames(const AttributeSchema& schema);
-  /// The name, with "_2", "_3" ... behind it if it would be read as a coordinate, as a component of
-  /// one of those, as an attribute that is there, or not at all.
-  std::string add(const std::string& name);
+  using Cleaned = std::string (*)(const std::string& attribute);
+  FieldNames(const AttributeSchema& schema, Cleaned cleaned);
+
+  /// The name of an attribute, or of all its components.
+  const std::string& operator[](std::size_t column) const { return names_[column]; }
+  /// Attributes with another name than their own: full sentences.
+  const std::vector<std::string>& findings() const { return findings_; }
 
 private:
   bool take(const std::string& name);
 
-  std::set<std::string> vectors_; ///< attributes that have names of their own
+  std::vector<std::string> names_; ///< one for each attribute
+  std::vector<std::string> findings_;
+  std::set<std::string> vectors_; ///< attributes with names that the format gives
   std::set<std::string> taken_; ///< attributes as they will be read
 };
 

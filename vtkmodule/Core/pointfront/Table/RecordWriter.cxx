@@ -1,5 +1,7 @@
 #include "pointfront/Table/RecordWriter.h"
 
+#include "pointfront/Table/FieldRole.h"
+
 #include <cassert>
 #include <utility>
 
@@ -15,7 +17,9 @@ Result<void> RecordWriter::begin(const SinkDescription& description)
 {
   assert(!file_);
   RecordEncoder encoder(description.schema, coordinates(description));
-  RecordFile::Header header = describe(description.schema, encoder);
+  const FieldNames names(description.schema, fieldName);
+  renamed_ = names.findings();
+  RecordFile::Header header = describe(description.schema, names, encoder);
   Result<std::unique_ptr<RecordFile>> file =
     RecordFile::create(path_, std::move(encoder), std::move(header));
   if (!file)
@@ -40,7 +44,10 @@ Result<void> RecordWriter::finish()
 
 std::vector<std::string> RecordWriter::findings() const
 {
-  return file_ ? file_->findings() : std::vector<std::string>();
+  std::vector<std::string> all = renamed_;
+  const std::vector<std::string> rounded = file_ ? file_->findings() : std::vector<std::string>();
+  all.insert(all.end(), rounded.begin(), rounded.end());
+  return all;
 }
 
 } // namespace pointfront

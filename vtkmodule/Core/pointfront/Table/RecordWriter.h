@@ -9,6 +9,7 @@
 
 namespace pointfront
 {
+class FieldNames;
 
 /// Writes points as one record each behind a text header, as in PLY and PCD. The format decides the
 /// header, the form of x, y and z, and the rest of a record.
@@ -37,9 +38,10 @@ private:
   /// Adds the attributes to the encoder, in the order of the file, and gives the header that
   /// announces them.
   virtual RecordFile::Header describe(
-    const AttributeSchema& schema, RecordEncoder& encoder) const = 0;
+    const AttributeSchema& schema, const FieldNames& names, RecordEncoder& encoder) const = 0;
 
   std::string path_;
+  std::vector<std::string> renamed_; ///< findings about names
   std::unique_ptr<RecordFile> file_; ///< since begin()
 };
 

@@ -67,6 +67,26 @@ class Points(LeftOutTest):
         outcome = self.succeed("build", OFFICE, "-o", store, "--force")
         self.assertIn("52744 of 307200 points are left out: 52744 not a number", outcome.err)
 
+    def test_colours_that_are_no_numbers_are_counted(self):
+        """NaN in PLY, PCD and text was black without a word."""
+        rows = [(float(k), 2.0, 3.0, k / 10, 0.5, 1.0) for k in range(10)]
+        rows[3] = (3.0, 2.0, 3.0, math.nan, 0.5, math.nan)
+        body = "".join(" ".join(map(repr, row)) + "\n" for row in rows)
+        names = ("x", "y", "z", "red", "green", "blue")
+        ply = ("ply\nformat binary_little_endian 1.0\nelement vertex 10\n"
+               + "".join(f"property float {name}\n" for name in names) + "end_header\n").encode()
+        (self.folder / "a.ply").write_bytes(ply + b"".join(struct.pack("<6f", *r) for r in rows))
+        pcd = (f"VERSION 0.7\nFIELDS {' '.join(names)}\nSIZE 4 4 4 4 4 4\nTYPE F F F F F F\n"
+               "COUNT 1 1 1 1 1 1\nWIDTH 10\nHEIGHT 1\nPOINTS 10\nDATA ascii\n")
+        self.text(pcd + body, "a.pcd")
+        self.text(" ".join(names) + "\n" + body, "a.txt")
+        store = self.folder / "x.pfront"
+        for kind in ("ply", "pcd", "txt"):
+            outcome = self.succeed("build", self.folder / f"a.{kind}", "-o", store, "--force")
+            self.assertEqual(
+                outcome.err.count("2 values of the colour 'red', 'green', 'blue' are NaN"), 1,
+                (kind, outcome.err))
+
     def test_an_input_of_which_nothing_is_left_is_an_error(self):
         for content in ("nan nan nan\nnan nan nan\n", "1e300 2 3\n", "inf 1 1\n"):
             path = self.text(content)

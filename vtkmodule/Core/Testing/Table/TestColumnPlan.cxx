@@ -103,6 +103,30 @@ TEST(ColumnPlan, NamesTheSecondOfOneNameOtherwise)
     "t int8, t_2 int8");
 }
 
+TEST(ColumnPlan, CountsColoursThatAreNoFiniteNumbers)
+{
+  const ScalarType type = ScalarType::Float32;
+  std::vector<FieldStatistics> statistics(5, range(0, 1));
+  const std::vector<TableField> fields{ x, y, { "r", type }, { "g", type }, { "b", type } };
+  const auto warnings = [&]
+  {
+    std::vector<std::string> all = ColumnPlan::make(fields, statistics, "file")->warnings;
+    all.erase(all.begin()); // there is no z
+    return all;
+  };
+  EXPECT_TRUE(warnings().empty());
+  statistics[3].add(std::nan(""));
+  FieldStatistics others;
+  others.add(std::nan(""));
+  others.add(-HUGE_VAL);
+  statistics[4].add(others);
+  ASSERT_EQ(warnings().size(), 1u);
+  EXPECT_EQ(warnings()[0].find("3 values of the colour 'r', 'g', 'b' are NaN or infinite"), 0u);
+  statistics[2] = range(-1, 1); // no colour, so they stay what they are
+  ASSERT_EQ(warnings().size(), 1u);
+  EXPECT_NE(warnings()[0].find("are no colour"), std::string::npos);
+}
+
 TEST(ColumnPlan, RefusesWhatHasNoPosition)
 {
   EXPECT_NE(

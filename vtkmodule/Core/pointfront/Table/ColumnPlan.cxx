@@ -57,7 +57,7 @@ bool shortText(const FieldStatistics& values)
 ScalarType textType(const FieldStatistics& values)
 {
   const double reach = values.empty() ? 0.0 : std::max(std::abs(values.low), std::abs(values.high));
-  if (values.whole && values.finite && !values.empty() && reach <= largestExactInteger)
+  if (values.whole && values.notFinite == 0 && !values.empty() && reach <= largestExactInteger)
   {
     return smallestInteger(values.low, values.high);
   }
@@ -86,7 +86,7 @@ ScalarType knownType(const TableField& field, const FieldStatistics& values, Sca
     return text && (wished == ScalarType::Float64 || shortText(values)) ? wished
                                                                         : ownType(field, values);
   }
-  const bool fits = values.whole && values.finite &&
+  const bool fits = values.whole && values.notFinite == 0 &&
     (values.empty() || (values.low >= 0.0 && values.high <= largestOf(wished)));
   return fits ? wished : ownType(field, values);
 }
@@ -272,14 +272,21 @@ void Planner::addColour()
     fields[k] = fields_[(*rgb)[k]];
     values.add(statistics_[(*rgb)[k]]);
   }
+  const std::string names =
+    "'" + fields[0].name + "', '" + fields[1].name + "', '" + fields[2].name + "'";
   if (const auto coding = colourCoding(fields, values))
   {
+    if (values.notFinite > 0) // a few must not cost all points their colour
+    {
+      plan_.warnings.push_back(std::to_string(values.notFinite) + " values of the colour " + names +
+        " are NaN or infinite: NaN becomes 0, an infinity the nearer end of the colours.");
+    }
     addColumn(Attribute{ "rgb", coding->type, 3 }, { rgb->begin(), rgb->end() }, coding->factor);
     return;
   }
-  plan_.warnings.push_back("The fields '" + fields[0].name + "', '" + fields[1].name + "', '" +
-    fields[2].name + "' are no colour (values from " + std::to_string(values.low) + " to " +
-    std::to_string(values.high) + "): kept as attributes of their own.");
+  plan_.warnings.push_back("The fields " + names + " are no colour (values from " +
+    std::to_string(values.low) + " to " + std::to_string(values.high) +
+    "): kept as attributes of their own.");
 }
 
 void Planner::addNormal()

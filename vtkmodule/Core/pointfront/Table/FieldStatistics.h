@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 namespace pointfront
 {
 
-/// Facts about all values of one field. NaN and infinities count for `finite` only.
+/// Facts about all values of one field. NaN and infinities count for `notFinite` only.
 struct FieldStatistics
 {
   double low = std::numeric_limits<double>::infinity();
   double high = -std::numeric_limits<double>::infinity();
-  bool finite = true; ///< neither NaN nor infinity among them
+  std::uint64_t notFinite = 0; ///< values that are NaN or infinite
   bool whole = true; ///< every one is an integer
   double off255 = 0.0; ///< farthest that a value * 255 is from an integer: colours
   int decimals = 0; ///< text: most places after the point, trailing zeros left out
@@ -33,7 +34,7 @@ struct FieldStatistics
   {
     if (!std::isfinite(value))
     {
-      finite = false;
+      ++notFinite;
       return;
     }
     low = std::min(low, value);
@@ -46,7 +47,7 @@ struct FieldStatistics
   {
     low = std::min(low, other.low);
     high = std::max(high, other.high);
-    finite = finite && other.finite;
+    notFinite += other.notFinite;
     whole = whole && other.whole;
     off255 = std::max(off255, other.off255);
     decimals = std::max(decimals, other.decimals);

@@ -80,7 +80,7 @@ private:
         using T = decltype(zero);
         const bool inside = values.low >= static_cast<double>(std::numeric_limits<T>::lowest()) &&
           values.high <= static_cast<double>(std::numeric_limits<T>::max());
-        return inside && (std::is_floating_point_v<T> || (values.whole && values.finite));
+        return inside && (std::is_floating_point_v<T> || (values.whole && values.notFinite == 0));
       });
   }
 

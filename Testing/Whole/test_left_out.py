@@ -87,6 +87,18 @@ class Points(LeftOutTest):
                 outcome.err.count("2 values of the colour 'red', 'green', 'blue' are NaN"), 1,
                 (kind, outcome.err))
 
+    def test_nothing_is_said_of_the_points_of_a_file_without_any(self):
+        """It "lacks rgb; zeros are stored instead", and its coordinates "are rounded"."""
+        path = write_scaled_las(self.folder / "other.las", [(1, 1, 1)], (0.033, 0.033, 0.033))
+        one = path.read_bytes()
+        empty = self.folder / "empty.las"
+        empty.write_bytes(one[:107] + bytes(24) + one[131:227])  # no points, of no return
+        for other, told in ((path, 1), (empty, 0)):
+            outcome = self.succeed("build", SMALL, other, "-o", self.folder / "x.pfront",
+                                   "--force")
+            for words in ("zeros are stored instead", "are rounded, by at most"):
+                self.assertEqual(outcome.err.count(words), told, (other, outcome.err))
+
     def test_an_input_of_which_nothing_is_left_is_an_error(self):
         for content in ("nan nan nan\nnan nan nan\n", "1e300 2 3\n", "inf 1 1\n"):
             path = self.text(content)

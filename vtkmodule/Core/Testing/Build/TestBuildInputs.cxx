@@ -21,8 +21,10 @@ using Sources = std::vector<std::unique_ptr<PointSource>>;
 
 std::unique_ptr<CloudSource> gridSource(const std::string& path, double scale, double offset)
 {
-  return std::make_unique<CloudSource>(
+  auto source = std::make_unique<CloudSource>(
     path, AttributeSchema{}, QuantisationGrid{ glm::dvec3(scale), glm::dvec3(offset) });
+  source->editDescription().pointCount = 1; // warnings are of points
+  return source;
 }
 
 TEST(GridChoice, KeepsASharedGridAndOneApartByWholeSteps)
@@ -135,7 +137,9 @@ std::unique_ptr<CloudSource> schemaSource(
   {
     schema.add(attribute);
   }
-  return std::make_unique<CloudSource>(path, schema, millimetres());
+  auto source = std::make_unique<CloudSource>(path, schema, millimetres());
+  source->editDescription().pointCount = 1; // warnings are of points
+  return source;
 }
 
 TEST(CommonSchema, UnitesColumnsAndNamesThoseMissing)

@@ -177,7 +177,7 @@ std::vector<ColumnMapping> mappingOf(const SourceDescription& source, const Attr
       missing += (missing.empty() ? "" : ", ") + common.name;
     }
   }
-  if (!missing.empty())
+  if (!missing.empty() && source.pointCount > 0)
   {
     warnings.push_back(quoted(source.path) + " lacks " + missing + "; zeros are stored instead.");
   }

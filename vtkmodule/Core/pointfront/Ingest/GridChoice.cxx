@@ -265,7 +265,9 @@ void warnOfRounding(const Sources& sources, GridChoice& choice)
   for (const auto& source : sources)
   {
     const SourceDescription& description = source->description();
-    if (description.grid && usable(*description.grid) && liesOn(*description.grid, choice.grid))
+    const bool lossless =
+      description.grid && usable(*description.grid) && liesOn(*description.grid, choice.grid);
+    if (lossless || description.pointCount == 0)
     {
       continue;
     }

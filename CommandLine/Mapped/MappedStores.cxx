@@ -68,6 +68,7 @@ Result<std::unique_ptr<MappedStores::MappedStore>> MappedStores::openStore(
   errors.observe(mapped->reader);
   errors.ignoreWarnings(mapped->reader); // they are those of warnings()
   errors.observe(mapped->mapper);
+  mapped->mapper->IgnoreLeftOut(); // left_out and a warning of our own say it
   mapped->reader->SetFileName(path.c_str());
   mapped->reader->SetOverviewPoints(0); // the mapper alone draws
   mapped->mapper->SetInputConnection(mapped->reader->GetOutputPort());

@@ -29,6 +29,7 @@ struct vtkPointFrontMapper::Content
   bool MissingTold = false; ///< that this input names no store
   bool OtherPointsTold = false; ///< that this input's points are not the store's
   std::pair<vtkTypeInt64, vtkIdType> LeftOutTold{ -1, -1 }; ///< with these budgets
+  bool LeftOutIgnored = false;
   pointfront::MapperFronts Views;
   pointfront::ClassLimits Limits;
   pointfront::MapperStyle Style;

@@ -68,7 +68,8 @@ FrameLight lightOf(vtkLight* light, const glm::dmat4& toView, const glm::dmat4& 
   const double* const colour = light->GetDiffuseColor();
   FrameLight result;
   result.colour = glm::vec3(light->GetIntensity() * glm::dvec3(colour[0], colour[1], colour[2]));
-  result.towards = glm::vec3(light->LightTypeIsHeadlight() ? unit(turn * -ahead, -ahead) : -direction);
+  result.towards =
+    glm::vec3(light->LightTypeIsHeadlight() ? unit(turn * -ahead, -ahead) : -direction);
   result.positional = light->GetPositional() != 0;
   if (result.positional)
   {

@@ -143,6 +143,11 @@ const std::vector<std::uint16_t>& vtkPointFrontMapper::GetLastLayersLeftOut() co
   return this->GetStatistics().layersLeftOut;
 }
 
+void vtkPointFrontMapper::IgnoreLeftOut()
+{
+  this->Internals->LeftOutIgnored = true;
+}
+
 std::string vtkPointFrontMapper::GetLastLeftOut()
 {
   vtkPointFrontStore* const store = this->GetStore();

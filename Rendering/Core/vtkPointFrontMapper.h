@@ -286,6 +286,7 @@ public:
   /// By the store's layers, as far as any has points; and those in sight that budgets leave out.
   const std::vector<std::uint64_t>& GetLastLayerPoints() const;
   const std::vector<std::uint16_t>& GetLastLayersLeftOut() const;
+  void IgnoreLeftOut(); ///< no warning tells of LastLeftOut: the program that draws does
 #endif
   /// Points drawn beside these while the view moved: seen before, which the frame's front lacks.
   vtkIdType GetLastPointsKept() const;
@@ -397,8 +398,7 @@ protected:
   /// soon as the time is known.
   void RecordFrame(
     vtkRenderer* renderer, vtkActor* actor, vtkIdType points, vtkIdType moves, double milliseconds);
-  /// Called when a renderer drew a frame and no renderer shows this mapper any more: its GPU memory
-  /// is idle.
+  /// Called after a frame where no renderer shows this mapper any more: its GPU memory is idle.
   virtual void LeaveScreen();
   /// Chooses the back end of a drawing: whether points are drawn from host memory, and take no GPU
   /// memory. BeginFrame() asks once.

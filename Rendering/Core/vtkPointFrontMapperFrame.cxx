@@ -326,7 +326,7 @@ void vtkPointFrontMapper::FinishFrame(
   view.Statistics = statistics;
   statistics = this->Internals->Views.statisticsOf(renderer);
   const auto budgets = std::make_pair(this->GPUMemoryBudget, this->PointBudget);
-  if (view.Complete && view.LeftOut &&
+  if (view.Complete && view.LeftOut && !this->Internals->LeftOutIgnored &&
     std::exchange(this->Internals->LeftOutTold, budgets) != budgets)
   {
     vtkWarningMacro(<< pointfront::roomWarning(this->GetStore()->GetStore()->description(),

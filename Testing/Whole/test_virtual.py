@@ -225,7 +225,8 @@ class VirtualClouds(ToolTest):
             points[place] = classes[number % len(classes)]
         (self.folder / "classes.las").write_bytes(points)
         store = self.folder / f"{name}.pfront"
-        self.succeed("build", self.folder / "classes.las", "-o", store, "--layers", "class")
+        self.succeed("build", self.folder / "classes.las", "-o", store, "--layers", "class",
+                     "--force")
         told = self.succeed("info", store, "--json").json
         self.assertEqual([layer["class"] for layer in told["layers"]], classes)
         return item(f"./{store.name}", told["bounds"], told["points"])

@@ -57,13 +57,14 @@ class Window:
         stat = pathlib.Path(f"/proc/{self.process.pid}/stat")
 
         def taken():
+            # Ticks, as whole numbers: the difference of two times is a rounding more than a tick.
             fields = stat.read_text().rsplit(")", 1)[1].split()
-            return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+            return int(fields[11]) + int(fields[12])
 
         time.sleep(1.0)
         before = taken()
         time.sleep(2.0)
-        return taken() - before
+        return (taken() - before) / os.sysconf("SC_CLK_TCK")
 
     def end(self):
         """Its status and what it complained of."""

@@ -250,6 +250,11 @@ class Collections(ToolTest):
                 self.refuse(1, "collection", "replace", self.city, tiles[2], option, text)
         self.refuse(1, "collection", "create", self.folder / "no.pfcollection", tiles[3],
                     "--epoch", "a\tb")
+        lines = self.folder / "tiles/two\nlines.pfront"
+        lines.symlink_to(tiles[3])
+        said = self.refuse(1, "collection", "add", self.city, lines)
+        self.assertIn("control characters", said.err)
+        self.assertIn("rename its file", said.err)
         self.assertEqual(self.city.read_bytes(), before)
         self.assertEqual(self.entries(), ["city.pfcollection", "tiles"])
         self.collection("replace", self.city, tiles[2], "--name", "tile_2")

@@ -34,13 +34,16 @@ Result<void> checkNames(const std::string& path, const std::vector<TileRequest>&
   const auto isControl = [](unsigned char c) { return c < 0x20 || c == 0x7f; };
   for (const TileRequest& request : requests)
   {
-    for (const std::string& name : { request.name, request.epoch })
+    // A tile without a name gets that of its file, which may hold a line break, too.
+    const std::string called = request.name.empty() ? tileNameOf(request.path) : request.name;
+    for (const std::string& name : { called, request.epoch })
     {
       if (std::any_of(name.begin(), name.end(), isControl))
       {
         return makeError(Error::Kind::BadArgument,
           path + ": '" + printableText(name) +
-            "' has control characters, which no name of a tile or an epoch has");
+            "' has control characters, which no name of a tile or an epoch has" +
+            (request.name.empty() && name == called ? "; rename its file" : ""));
       }
     }
   }

@@ -6,6 +6,7 @@
 #include "KnownWords.h"
 #include "ProgressDisplay.h"
 
+#include "pointfront/Base/PrintableText.h"
 #include "pointfront/Disk/ByteOpeners.h"
 #include "pointfront/Export/OutputTarget.h"
 #include "pointfront/Tiles/CollectionCloud.h"
@@ -303,15 +304,16 @@ Result<void> CollectionCommand::list() const
   }
   for (const CollectedTile& tile : record.tiles)
   {
-    std::printf("%s  %llu points  %s%s%s\n", tile.is.name.c_str(),
-      static_cast<unsigned long long>(tile.pointCount), tile.is.address.c_str(),
-      tile.is.epoch.empty() ? "" : "  ", tile.is.epoch.c_str());
+    // One line a tile, whatever the folders of its address are called.
+    std::printf("%s  %llu points  %s%s%s\n", printableText(tile.is.name).c_str(),
+      static_cast<unsigned long long>(tile.pointCount), printableText(tile.is.address).c_str(),
+      tile.is.epoch.empty() ? "" : "  ", printableText(tile.is.epoch).c_str());
   }
   std::printf(
     "%zu tiles, state %llu\n", record.tiles.size(), static_cast<unsigned long long>(record.state));
   for (auto change = record.history.rbegin(); change != record.history.rend(); ++change)
   {
-    std::printf("  can be undone: %s\n", change->what.c_str());
+    std::printf("  can be undone: %s\n", printableText(change->what).c_str());
   }
   return {};
 }

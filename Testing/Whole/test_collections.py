@@ -262,6 +262,12 @@ class Collections(ToolTest):
         self.collection("add", self.city, tiles[1], "--name", "Straße")
         self.assertEqual(self.names(), ["Straße", "tile_0", "tile_1", "tile_2"])
 
+    def test_a_tile_is_one_line_of_the_list_wherever_it_lies(self):
+        self.collection("create", self.city, self.tile(0, folder="two\nlines"))
+        listed = self.succeed("collection", "list", self.city).out.splitlines()
+        self.assertEqual(listed[0], "tile_0  3000 points  two lines/tile_0.pfront")
+        self.assertTrue(listed[1].startswith("1 tiles, state 1"), listed)
+
     def test_a_path_counts_once_and_a_link_as_often_as_it_is_named(self):
         tiles = [self.tile(number) for number in range(3)]
         (self.folder / "linked").symlink_to("tiles")

@@ -110,7 +110,7 @@ Result<void> coarsenStep(
   }
   if (step > before)
   {
-    plan.coarserSteps.push_back("The step of " + name + " is " + numberText(step, digits) +
+    plan.changes.push_back("The step of " + name + " is " + numberText(step, digits) +
       ", the finest with which the 32 bits of LAS reach over the extent; before the coordinates "
       "were transformed, it was " +
       numberText(before, digits) + ".");
@@ -304,7 +304,7 @@ LASDate LASDate::today()
 
 std::vector<std::string> LASExport::findings(const LASTotals& totals) const
 {
-  std::vector<std::string> all = coarserSteps;
+  std::vector<std::string> all = changes;
   const std::vector<std::string> ofFields = fieldFindings(*this, totals);
   all.insert(all.end(), ofFields.begin(), ofFields.end());
   return all;

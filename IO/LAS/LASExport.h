@@ -72,8 +72,9 @@ struct LASExport
   std::vector<std::string> exactNames;
   /// OfCOPC: the reference system was known by GeoTIFF keys only, which are left out.
   bool lostGeoKeys = false;
-  /// Axes with a coarser step than transformed coordinates had before: a sentence for each.
-  std::vector<std::string> coarserSteps;
+  /// Axes with a coarser step than transformed coordinates had before, and extra bytes with another
+  /// name than their attribute: a sentence for each.
+  std::vector<std::string> changes;
 
   /// Steps and attributes that are not as they were: full sentences.
   std::vector<std::string> findings(const LASTotals& totals) const;

@@ -1,5 +1,7 @@
 #include "LASFieldChoice.h"
 
+#include "ExtraBytesNames.h"
+
 #include "pointfront/Base/NumberText.h"
 
 #include <algorithm>
@@ -192,6 +194,8 @@ std::vector<Attribute> chooseLASFields(
     }
     addExtra(c, exact, extra, plan.origins);
   }
+  const std::vector<std::string> names = shortenExtraBytesNames(own.schema, extra);
+  plan.changes.insert(plan.changes.end(), names.begin(), names.end());
   plan.layout = makeLASPointLayout(pointFormat, extra);
   plan.exactNames.resize(plan.layout.schema.size());
   return extra;

@@ -13,7 +13,8 @@ namespace pointfront
 bool hasFineAngles(const SinkDescription& description);
 
 /// Chooses for each column the field of its name, extra bytes, or both where the field holds some
-/// values only. Fills `layout`, `origins` and `exactNames` of the plan; gives the extra attributes.
+/// values only. Fills `layout`, `origins` and `exactNames` of the plan, adds to `changes`; gives
+/// the extra attributes.
 std::vector<Attribute> chooseLASFields(
   const SinkDescription& description, int pointFormat, LASExport& plan);
 

@@ -105,6 +105,29 @@ class Exports(ToolTest):
                 x, kept, other, heat = (int(float(row[k])) for k in at)
                 self.assertEqual((kept, other, heat), (x + 100, x, x + 7), kind)
 
+    def test_names_of_las_have_32_bytes(self):
+        """Two names with the same beginning were one name in the file, without a word."""
+        begin = "a_name_of_thirty_bytes_is_here"
+        long, other, right = begin + "_one", begin + "_other", begin + "_2"
+        text = self.folder / "in.csv"
+        text.write_text(f"x,y,z,{long},{right},{other}\n" +
+                        "".join(f"{k},{k},0,{k},{k + 100},{k + 7}\n" for k in range(10)))
+        store = self.build(text)
+        for kind in ("las", "laz", "copc.laz"):
+            out, outcome = self.export(store, f"n.{kind}")
+            for name, written in ((long, begin + "_o"), (other, begin + "_3")):
+                told = f"The attribute '{name}' is written as '{written}': LAS has 32 bytes"
+                self.assertEqual(outcome.err.count(told), 1, outcome.err)
+            self.assertEqual(outcome.err.count("is written as"), 2)
+            self.succeed("build", out, "-o", self.folder / "b.pfront", "--force")
+            back, _ = self.export(self.folder / "b.pfront", "b.csv")
+            lines = [line.split(",") for line in back.read_text().splitlines()]
+            at = [lines[0].index(c) for c in ("x", begin + "_o", right, begin + "_3")]
+            self.assertEqual(len(lines), 11)
+            for row in lines[1:]:
+                x, one, kept, last = (int(float(row[k])) for k in at)
+                self.assertEqual((one, kept, last), (x, x + 100, x + 7), kind)
+
     def test_coordinates_are_transformed(self):
         las = write_las(self.folder / "a.las", [(500000.0, 5600000.0, 100.0, 0, 0, 0),
                                                 (500010.0, 5600010.0, 110.0, 0, 0, 0)])

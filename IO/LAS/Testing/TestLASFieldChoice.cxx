@@ -60,6 +60,35 @@ TEST(LASFieldChoice, TakesANewerFormatForAnglesThatAreNoWholeDegreesFrom90To90)
   }
 }
 
+TEST(LASFieldChoice, ExtraBytesHaveNamesOf32BytesThatNoOtherHas)
+{
+  const std::string base(30, 'n');
+  const std::string umlauts = "hhhhhhhhhhhhhhhhhhhhhhhhhhhhhhh\u00e4x"; // 31 bytes, 2 and 1
+  const SinkDescription description =
+    described({ { base + "XXlong", ScalarType::Float32 }, { base + "XX", ScalarType::Int16 },
+      { base + "XXother", ScalarType::UInt8 }, { umlauts, ScalarType::Float64 },
+      { base + "YYvector", ScalarType::Float32, 5 }, { "plain", ScalarType::UInt16, 3 },
+      { "five", ScalarType::UInt16, 4 }, { "five[1]", ScalarType::UInt16 } });
+  const Result<LASExport> plan = LASExport::plan(description, "out.las");
+  ASSERT_TRUE(plan) << plan.error().what;
+  const AttributeSchema& schema = plan->layout.schema;
+  std::vector<std::string> names;
+  for (std::size_t c = makeLASPointLayout(0, {}).schema.size(); c < schema.size(); ++c)
+  {
+    names.push_back(schema[c].name);
+  }
+  const std::string index = base.substr(1);
+  const std::vector<std::string> expected = { base + "_2", base + "XX", base + "_3",
+    std::string(31, 'h'), index + "[0]", index + "[1]", index + "[2]", index + "[3]", index + "[4]",
+    "plain", "five[0]", "five[1]", "five[2]", "five[3]", "five_2[1]" };
+  EXPECT_EQ(names, expected);
+  EXPECT_EQ(plan->changes.size(), 9u) << "each change is told, and nothing else";
+  EXPECT_EQ(plan->changes[0],
+    "The attribute '" + base + "XXlong' is written as '" + base + "_2': LAS has 32 bytes for a " +
+      "name.");
+  EXPECT_NE(plan->changes.back().find("another one has its name"), std::string::npos);
+}
+
 /// Writes a batch as LAS; gives what the writer found.
 std::vector<std::string> findingsOf(
   const SinkDescription& description, const PointBatch& batch, const std::string& path)

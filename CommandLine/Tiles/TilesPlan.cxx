@@ -153,7 +153,8 @@ Result<std::vector<PlannedInput>> TilesBuild::plannedInputs(const PointSources& 
       return identity.error();
     }
     PlannedInput input{ absolutePath(description.path), *identity, kindOf(description) };
-    input.representative = kinds.insert(input.kind).second;
+    // An empty input chooses nothing for others' points; with nothing but such there are no tiles.
+    input.representative = description.pointCount > 0 && kinds.insert(input.kind).second;
     input.kept = kept[inputs.size()];
     const std::uint64_t promised = description.headerPointCount.value_or(description.pointCount);
     input.missing = promised - std::min(promised, description.pointCount);

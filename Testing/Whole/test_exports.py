@@ -173,6 +173,24 @@ class Exports(ToolTest):
             out, _ = self.export(cloud, "one.las")
             self.assertEqual(out.read_bytes()[6] & 1, bit, cloud)
 
+    def test_inputs_without_points_choose_neither_grid_nor_attributes(self):
+        """One that has colours made all points of the others black, in steps of its own."""
+        empty = write_las(self.folder / "empty.las", [(1e6, 0.0, 0.0, 1, 2, 3)], scale=1e-5)
+        data = bytearray(empty.read_bytes()[:227])
+        struct.pack_into("<2I", data, 107, 0, 0)
+        empty.write_bytes(data)
+        rows = self.folder / "rows.xyz"
+        rows.write_text("".join(f"{x / 8} {x % 5 / 8} 0.5\n" for x in range(50)))
+        alone = self.build(rows, name="alone.pfront")
+        for inputs in ((empty, rows), (rows, empty)):
+            together = self.folder / "together.pfront"
+            outcome = self.succeed("build", *inputs, "-o", together, "--force")
+            self.assertNotIn("rgb", outcome.err)
+            told, expected = (self.succeed("info", store, "--json").json
+                              for store in (together, alone))
+            for key in ("points", "precision", "attributes", "bounds"):
+                self.assertEqual(told[key], expected[key], key)
+
     def test_inputs_without_points_do_not_choose_the_kind_of_gps_times(self):
         """Neither files that have none, nor those whose points all lie outside of the box."""
         week = bytearray(SMALL.read_bytes())

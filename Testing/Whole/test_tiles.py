@@ -164,6 +164,20 @@ class Tiles(ToolTest):
         self.same_values(folder, "--normals", "pca", "--normals-radius", "1.5",
                          "--precision", "0.01", "--structure", "kdtree")
 
+    def test_have_nothing_of_an_input_without_points(self):
+        inputs = self.folder / "inputs"
+        inputs.mkdir()
+        empty = write_las(inputs / "empty.las", [(1e6, 0.0, 0.0, 1, 2, 3)], scale=1e-5)
+        data = bytearray(empty.read_bytes()[:227])
+        struct.pack_into("<2I", data, 107, 0, 0)  # its colours and steps are nobody's
+        empty.write_bytes(data)
+        rows = "".join(f"{x % 97}.5 {x // 97}.5 1.0\n" for x in range(8000))
+        (inputs / "rows.xyz").write_text(rows)
+        self.assertNotIn("red", self.same_values(inputs))
+        precisions = [self.succeed("info", self.folder / cloud, "--json").json["precision"]
+                      for cloud in ("one.pfront", "land/land.pfcollection")]
+        self.assertEqual(precisions[0], precisions[1])
+
     def test_count_what_they_leave_out(self):
         rows = [f"{x % 97}.5 {x // 97}.5 1.0" for x in range(5000)]
         rows[7], rows[4000] = "nan 4 5", "3 inf 5"

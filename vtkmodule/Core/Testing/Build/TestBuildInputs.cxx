@@ -53,6 +53,28 @@ TEST(GridChoice, TakesTheFinestAndNamesWhatIsRounded)
   EXPECT_NE(choice->warnings[0].find("0.0005"), std::string::npos);
 }
 
+TEST(GridChoice, HearsNoSourceWithoutPoints)
+{
+  Sources sources;
+  sources.push_back(gridSource("empty", 0.001, 7.0005));
+  sources.push_back(gridSource("coarse", 0.01, 0.0));
+  for (const auto& source : sources)
+  {
+    static_cast<CloudSource&>(*source).editDescription().declaredBounds = // unlike those of points
+      Bounds{ glm::dvec3(-5.0), glm::dvec3(source == sources[0] ? 1e9 : 5.0) };
+  }
+  static_cast<CloudSource&>(*sources[0]).editDescription().pointCount = 0;
+  const auto choice = chooseGrid(sources, std::nullopt);
+  ASSERT_TRUE(choice);
+  EXPECT_EQ(choice->grid, (QuantisationGrid{ glm::dvec3(0.01), glm::dvec3(0.0) }));
+  EXPECT_EQ(choice->high.x, 500);
+  EXPECT_TRUE(choice->warnings.empty());
+  sources.pop_back();
+  const auto alone = chooseGrid(sources, std::nullopt);
+  ASSERT_TRUE(alone);
+  EXPECT_EQ(alone->grid.scale, glm::dvec3(0.001)) << "nobody else has a say";
+}
+
 TEST(GridChoice, TakesThePrecisionAskedFor)
 {
   Sources sources;
@@ -157,6 +179,25 @@ TEST(CommonSchema, UnitesColumnsAndNamesThoseMissing)
   EXPECT_TRUE(common->mappings[1][0].converted);
   ASSERT_EQ(common->warnings.size(), 1u); // widening loses nothing, but a column is missing
   EXPECT_NE(common->warnings[0].find("'a' lacks x"), std::string::npos);
+}
+
+TEST(CommonSchema, TakesNoColumnOfASourceWithoutPoints)
+{
+  Sources sources;
+  sources.push_back(schemaSource(
+    "empty", { { "rgb", ScalarType::UInt16, 3 }, { "intensity", ScalarType::Float64, 2 } }));
+  sources.push_back(schemaSource("full", { { "intensity", ScalarType::UInt16, 1 } }));
+  static_cast<CloudSource&>(*sources[0]).editDescription().pointCount = 0;
+  const auto common = commonSchema(sources, std::nullopt);
+  ASSERT_TRUE(common) << common.error().what;
+  ASSERT_EQ(common->schema.size(), 1u) << "all points would be black";
+  EXPECT_EQ(common->schema[0], sources[1]->description().schema[0]);
+  EXPECT_TRUE(common->warnings.empty());
+  EXPECT_FALSE(commonSchema(sources, std::nullopt, SchemaOf::AllSources)) << "two shapes";
+  const auto named = commonSchema(sources, std::vector<std::string>{ "rgb" });
+  EXPECT_FALSE(named) << "of what is named, all have a say";
+  sources.pop_back();
+  EXPECT_EQ(commonSchema(sources, std::nullopt)->schema.size(), 2u);
 }
 
 TEST(CommonSchema, TakesOnlyWhatIsWanted)

@@ -84,7 +84,9 @@ Result<void> StoreBuild::prepare()
     append(report_.warnings, source->description().warnings);
   }
   auto reference = commonReferenceSystem(sources_);
-  auto schema = commonSchema(sources_, options_.attributes);
+  // Where others decided the grid, sources without points stand for some of another tile.
+  const SchemaOf from = options_.grid ? SchemaOf::AllSources : SchemaOf::SourcesWithPoints;
+  auto schema = commonSchema(sources_, options_.attributes, from);
   auto grid =
     options_.grid ? givenGrid(sources_, *options_.grid) : chooseGrid(sources_, options_.precision);
   if (!reference || !schema || !grid)

@@ -1,12 +1,14 @@
 #include "pointfront/Ingest/CommonSchema.h"
 
 #include "pointfront/Base/NearestName.h"
+#include "pointfront/Ingest/SourcesWithPoints.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Points/SplatRadius.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 
 namespace pointfront
 {
@@ -90,10 +92,11 @@ std::string listOf(const AttributeSchema& schema)
 using Sources = std::vector<std::unique_ptr<PointSource>>;
 
 /// All columns of all sources, in the order in which they are met first.
-Result<AttributeSchema> unionOf(const Sources& sources, std::vector<std::string>& warnings)
+Result<AttributeSchema> unionOf(
+  const std::vector<PointSource*>& sources, std::vector<std::string>& warnings)
 {
   std::vector<Attribute> all;
-  for (const auto& source : sources)
+  for (PointSource* const source : sources)
   {
     for (const Attribute& attribute : source->description().schema)
     {
@@ -128,6 +131,14 @@ Result<AttributeSchema> unionOf(const Sources& sources, std::vector<std::string>
     schema.add(std::move(attribute));
   }
   return schema;
+}
+
+std::vector<PointSource*> allOf(const Sources& sources)
+{
+  std::vector<PointSource*> all;
+  std::transform(sources.begin(), sources.end(), std::back_inserter(all),
+    [](const auto& source) { return source.get(); });
+  return all;
 }
 
 Result<AttributeSchema> selected(const AttributeSchema& all, const std::vector<std::string>& wanted)
@@ -217,10 +228,12 @@ void convertTo(const Attribute& from, const std::byte* in, const Attribute& to, 
 } // namespace
 
 Result<CommonSchema> commonSchema(
-  const Sources& sources, const std::optional<std::vector<std::string>>& wanted)
+  const Sources& sources, const std::optional<std::vector<std::string>>& wanted, SchemaOf from)
 {
   CommonSchema common;
-  Result<AttributeSchema> schema = unionOf(sources, common.warnings);
+  const bool filled = from == SchemaOf::SourcesWithPoints && !wanted;
+  Result<AttributeSchema> schema =
+    unionOf(filled ? sourcesWithPoints(sources) : allOf(sources), common.warnings);
   if (schema && wanted)
   {
     schema = selected(*schema, *wanted);

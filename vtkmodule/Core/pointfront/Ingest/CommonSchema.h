@@ -32,10 +32,18 @@ struct CommonSchema
   std::vector<std::string> warnings;
 };
 
+/// Which sources give attributes that nobody named.
+enum class SchemaOf
+{
+  SourcesWithPoints, ///< an empty file chooses nothing for others' points; all if none has points
+  AllSources ///< those without points stand for some that have points elsewhere
+};
+
 /// `wanted`: names, or nothing for all. Error BadArgument for a name that no source has, with those
 /// that there are, and for columns of one name with different numbers of components.
 Result<CommonSchema> commonSchema(const std::vector<std::unique_ptr<PointSource>>& sources,
-  const std::optional<std::vector<std::string>>& wanted);
+  const std::optional<std::vector<std::string>>& wanted,
+  SchemaOf from = SchemaOf::SourcesWithPoints);
 
 /// The base that the codes in the column `splat_radius` of the sources are multiples of; 0 where
 /// there is no such column, where sources that have it do not say, or say different things.

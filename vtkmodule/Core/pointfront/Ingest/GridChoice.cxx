@@ -1,6 +1,7 @@
 #include "pointfront/Ingest/GridChoice.h"
 
 #include "pointfront/Base/NumberText.h"
+#include "pointfront/Ingest/SourcesWithPoints.h"
 
 #include <algorithm>
 #include <array>
@@ -25,7 +26,7 @@ std::string number(double v)
   return numberText(v, 9);
 }
 
-using Sources = std::vector<std::unique_ptr<PointSource>>;
+using FilledSources = std::vector<PointSource*>;
 
 bool usable(const QuantisationGrid& grid)
 {
@@ -55,10 +56,10 @@ bool liesOn(const QuantisationGrid& source, const QuantisationGrid& grid)
   return true;
 }
 
-Bounds declaredBounds(const Sources& sources)
+Bounds declaredBounds(const FilledSources& sources)
 {
   Bounds bounds;
-  for (const auto& source : sources)
+  for (PointSource* const source : sources)
   {
     const Bounds& declared = source->description().declaredBounds;
     const glm::dvec3 reach = glm::max(glm::abs(declared.low), glm::abs(declared.high));
@@ -81,7 +82,7 @@ glm::dvec3 roundOffset(const Bounds& bounds, const glm::dvec3& scale)
 using AxisValues = std::array<std::vector<double>, 3>;
 
 /// Coordinates of some chunks, sorted on each axis; of sources without a grid.
-AxisValues sampledValues(const Sources& sources)
+AxisValues sampledValues(const FilledSources& sources)
 {
   constexpr std::uint64_t mostChunks = 8;
   AxisValues values;
@@ -141,7 +142,7 @@ double occupied(const std::vector<double>& sorted)
 }
 
 /// The size that most points occupy on each axis, world units; nothing if no point could be read.
-std::optional<glm::dvec3> bulkSize(const Sources& sources)
+std::optional<glm::dvec3> bulkSize(const FilledSources& sources)
 {
   const AxisValues values = sampledValues(sources);
   glm::dvec3 size(0.0);
@@ -195,7 +196,7 @@ Result<double> stepAmongOutliers(double extent, double bulk)
   return step;
 }
 
-Result<GridChoice> defaultGrid(const Sources& sources)
+Result<GridChoice> defaultGrid(const FilledSources& sources)
 {
   constexpr double outlying = 1000.0; // times what most points have
   const Bounds bounds = declaredBounds(sources);
@@ -233,10 +234,10 @@ Result<GridChoice> defaultGrid(const Sources& sources)
 }
 
 /// The finest scale of all sources, with the offset of the first that has it.
-std::optional<QuantisationGrid> finestGrid(const Sources& sources)
+std::optional<QuantisationGrid> finestGrid(const FilledSources& sources)
 {
   std::optional<QuantisationGrid> finest;
-  for (const auto& source : sources)
+  for (PointSource* const source : sources)
   {
     const auto& grid = source->description().grid;
     if (!grid || !usable(*grid))
@@ -259,15 +260,15 @@ std::optional<QuantisationGrid> finestGrid(const Sources& sources)
   return finest;
 }
 
-void warnOfRounding(const Sources& sources, GridChoice& choice)
+void warnOfRounding(const FilledSources& sources, GridChoice& choice)
 {
   const glm::dvec3& s = choice.grid.scale;
-  for (const auto& source : sources)
+  for (PointSource* const source : sources)
   {
     const SourceDescription& description = source->description();
     const bool lossless =
       description.grid && usable(*description.grid) && liesOn(*description.grid, choice.grid);
-    if (lossless || description.pointCount == 0)
+    if (lossless || description.pointCount == 0) // none of them has points
     {
       continue;
     }
@@ -280,7 +281,7 @@ void warnOfRounding(const Sources& sources, GridChoice& choice)
 
 namespace
 {
-Result<GridChoice> chosenGrid(const Sources& sources, const std::optional<double>& precision)
+Result<GridChoice> chosenGrid(const FilledSources& sources, const std::optional<double>& precision)
 {
   const std::optional<QuantisationGrid> finest = finestGrid(sources);
   if (!precision && !finest)
@@ -322,16 +323,19 @@ void placeExtent(const Bounds& bounds, GridChoice& choice)
 }
 } // namespace
 
-Result<GridChoice> givenGrid(const Sources& sources, const QuantisationGrid& grid)
+Result<GridChoice> givenGrid(
+  const std::vector<std::unique_ptr<PointSource>>& sources, const QuantisationGrid& grid)
 {
   GridChoice choice;
   choice.grid = grid;
-  placeExtent(declaredBounds(sources), choice);
+  placeExtent(declaredBounds(sourcesWithPoints(sources)), choice);
   return choice;
 }
 
-Result<GridChoice> chooseGrid(const Sources& sources, const std::optional<double>& precision)
+Result<GridChoice> chooseGrid(
+  const std::vector<std::unique_ptr<PointSource>>& given, const std::optional<double>& precision)
 {
+  const FilledSources sources = sourcesWithPoints(given);
   constexpr double coarsest = 1e12;
   if (precision && (!(*precision > 0.0) || !(*precision <= coarsest)))
   {

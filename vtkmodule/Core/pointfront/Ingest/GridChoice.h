@@ -24,6 +24,7 @@ struct GridChoice
 /// Lossless   when all sources lie on the grid of the finest of them: same scale or whole
 ///            multiples, offsets apart by whole steps. The first such offset is taken.
 /// Rounded    otherwise, to at most half a step of the finest scale, with a warning.
+/// Empty      sources without points have no say, unless none has points.
 /// `precision` world units a step on every axis, > 0 and finite, and no finer than double precision
 /// tells apart at the farthest declared coordinate; BadArgument otherwise.
 /// Sources without a grid (floating point) and without `precision` get a millionth of the power of

@@ -1,5 +1,7 @@
 #include "Transfer.h"
 
+#include "CertificateFile.h"
+
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Threads/ForkHold.h"
 
@@ -7,7 +9,6 @@
 #include <arpa/inet.h>
 #include <cctype>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
 #include <netinet/in.h>
 #include <new>
@@ -104,20 +105,6 @@ std::size_t onBody(char* data, std::size_t, std::size_t size, void* transfer)
   {
     return 0;
   }
-}
-
-/// The environment's word on certificates; the library itself does not look there.
-const char* certificates()
-{
-  for (const char* name : { "CURL_CA_BUNDLE", "SSL_CERT_FILE" })
-  {
-    const char* const value = std::getenv(name);
-    if (value != nullptr && *value != '\0')
-    {
-      return value;
-    }
-  }
-  return nullptr;
 }
 
 CURL* newEasy()
@@ -232,9 +219,9 @@ void Transfer::prepare()
     curl_easy_setopt(easy, CURLOPT_OPENSOCKETFUNCTION, &openPublicSocket);
     curl_easy_setopt(easy, CURLOPT_FRESH_CONNECT, 1L); // none that was opened without the check
   }
-  if (const char* const file = certificates())
+  if (const std::string file = certificateFile(); !file.empty())
   {
-    curl_easy_setopt(easy, CURLOPT_CAINFO, file);
+    curl_easy_setopt(easy, CURLOPT_CAINFO, file.c_str());
   }
   if (question.signature)
   {
@@ -276,6 +263,10 @@ void Transfer::conclude(CURLcode code)
     code == CURLE_PEER_FAILED_VERIFICATION || code == CURLE_SSL_CACERT_BADFILE ||
     code == CURLE_UNSUPPORTED_PROTOCOL || code == CURLE_URL_MALFORMAT;
   answer.text = early && message_[0] != '\0' ? message_ : curl_easy_strerror(code);
+  if (code == CURLE_SSL_CACERT_BADFILE)
+  {
+    answer.text += " (install ca-certificates, or name a file of authorities in SSL_CERT_FILE)";
+  }
   answer.final = code == CURLE_PEER_FAILED_VERIFICATION || code == CURLE_SSL_CACERT_BADFILE ||
     code == CURLE_UNSUPPORTED_PROTOCOL || code == CURLE_URL_MALFORMAT ||
     (code == CURLE_COULDNT_CONNECT && question_->refusePrivate);

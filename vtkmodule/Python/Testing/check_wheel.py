@@ -12,6 +12,10 @@ import tempfile
 import zipfile
 
 ROOT = pathlib.Path(__file__).resolve().parents[3]
+sys.path.append(str(ROOT / "Testing/Support"))
+
+from far_server import FarServer
+
 CLOUD = ROOT / "Testing/Data/autzen_stadium.laz"
 LARGEST = 25 * 1000 * 1000  # bytes
 
@@ -56,6 +60,22 @@ except pointfront.PointFrontError as error:
 maps = pathlib.Path("/proc/self/maps").read_text()
 assert "libvtk" not in maps, "VTK is loaded"
 assert "libX11" not in maps and "libGL" not in maps, "X or GL is loaded"
+"""
+
+# The store of USE by its address, in Python and by the tool; nobody vouches for the second server.
+FAR = """
+import subprocess, sys
+import pointfront
+
+plain, secure = (f"{scheme}://127.0.0.1:{port}/a.pfront"
+                 for scheme, port in zip(("http", "https"), sys.argv[1:]))
+with pointfront.open("a.pfront") as cloud, pointfront.open(plain) as far:
+    assert (far.points()["position"] == cloud.points()["position"]).all()
+    assert (far.screenshot(size=(320, 200)).pixels
+            == cloud.screenshot(size=(320, 200)).pixels).all()
+subprocess.run(["pointfront", "info", plain], check=True, capture_output=True)
+told = subprocess.run(["pointfront", "info", secure], capture_output=True, text=True)
+assert told.returncode == 1 and "certificate" in told.stderr, told
 """
 
 # PyVista on Kitware's VTK, and PointFront beside it: each as if it were alone.
@@ -162,6 +182,12 @@ def check_use(wheel):
         environment.run("pointfront", "--version")
         environment.run("python", "-m", "pointfront", "--version")
         environment.run("python", "-c", USE, CLOUD)
+        own = pathlib.Path(folder) / "own.pem"
+        subprocess.run(["openssl", "req", "-x509", "-newkey", "rsa:2048", "-nodes", "-days", "2",
+                        "-subj", "/CN=localhost", "-keyout", own, "-out", own], check=True,
+                       capture_output=True)
+        with FarServer(folder) as plain, FarServer(folder, str(own)) as secure:
+            environment.run("python", "-c", FAR, plain.port, secure.port)
 
 
 def check_beside_pyvista(wheel):

@@ -162,16 +162,16 @@ class PyVista(unittest.TestCase):
         random = numpy.random.default_rng(5)
         arrays = {"position": random.uniform(0, 10, (count, 3)),
                   **{name: random.integers(0, 1 << 15, count, "uint16")
-                     for name in ("point_id", "id")}}
+                     for name in ("point_id", "id_")}}  # "id" is no attribute
         store = self.folder / "names.pfront"
         pointfront.build(arrays, store)
         cloud = pointfront.open(store)
         points, mesh = cloud.points(), cloud.to_pyvista()
         numpy.testing.assert_array_equal(mesh.points, points["position"])
         numpy.testing.assert_array_equal(mesh["point_id"], points["id"])
-        for array, stored in (("point_id_", "point_id"), ("id", "id_")):
-            numpy.testing.assert_array_equal(mesh[array], points[stored], array)
-            self.assertEqual(sorted(mesh[array]), sorted(arrays[array.rstrip("_")]), array)
+        for array, given in (("point_id_", "point_id"), ("id", "id_")):
+            numpy.testing.assert_array_equal(mesh[array], points[given], array)
+            self.assertEqual(sorted(mesh[array]), sorted(arrays[given]), array)
 
     def test_a_cloud_of_a_server_is_drawn_as_its_file(self):
         with FarServer(self.folder) as server:

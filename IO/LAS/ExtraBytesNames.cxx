@@ -8,7 +8,7 @@ namespace pointfront
 namespace
 {
 /// The longest beginning of at most `size` bytes that ends with a whole character of UTF-8.
-std::string_view beginningOf(std::string_view text, std::size_t size)
+std::string_view wholeCharacters(std::string_view text, std::size_t size)
 {
   if (text.size() <= size)
   {
@@ -49,9 +49,9 @@ std::string shortened(std::string_view name, const std::string& mark)
   name.remove_suffix(indexOf(name).size());
   if (end.size() >= lasExtraBytesName)
   {
-    return std::string(beginningOf(end, lasExtraBytesName));
+    return std::string(wholeCharacters(end, lasExtraBytesName));
   }
-  return std::string(beginningOf(name, lasExtraBytesName - end.size())) + end;
+  return std::string(wholeCharacters(name, lasExtraBytesName - end.size())) + end;
 }
 } // namespace
 

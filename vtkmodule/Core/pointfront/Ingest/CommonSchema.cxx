@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <iterator>
 
 namespace pointfront
 {
@@ -133,14 +132,6 @@ Result<AttributeSchema> unionOf(
   return schema;
 }
 
-std::vector<PointSource*> allOf(const Sources& sources)
-{
-  std::vector<PointSource*> all;
-  std::transform(sources.begin(), sources.end(), std::back_inserter(all),
-    [](const auto& source) { return source.get(); });
-  return all;
-}
-
 Result<AttributeSchema> selected(const AttributeSchema& all, const std::vector<std::string>& wanted)
 {
   std::vector<bool> keep(all.size(), false);
@@ -233,7 +224,7 @@ Result<CommonSchema> commonSchema(
   CommonSchema common;
   const bool filled = from == SchemaOf::SourcesWithPoints && !wanted;
   Result<AttributeSchema> schema =
-    unionOf(filled ? sourcesWithPoints(sources) : allOf(sources), common.warnings);
+    unionOf(filled ? sourcesWithPoints(sources) : allSources(sources), common.warnings);
   if (schema && wanted)
   {
     schema = selected(*schema, *wanted);

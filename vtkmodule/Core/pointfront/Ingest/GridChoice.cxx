@@ -26,7 +26,7 @@ std::string number(double v)
   return numberText(v, 9);
 }
 
-using FilledSources = std::vector<PointSource*>;
+using SourceList = std::vector<PointSource*>;
 
 bool usable(const QuantisationGrid& grid)
 {
@@ -56,7 +56,7 @@ bool liesOn(const QuantisationGrid& source, const QuantisationGrid& grid)
   return true;
 }
 
-Bounds declaredBounds(const FilledSources& sources)
+Bounds declaredBounds(const SourceList& sources)
 {
   Bounds bounds;
   for (PointSource* const source : sources)
@@ -82,7 +82,7 @@ glm::dvec3 roundOffset(const Bounds& bounds, const glm::dvec3& scale)
 using AxisValues = std::array<std::vector<double>, 3>;
 
 /// Coordinates of some chunks, sorted on each axis; of sources without a grid.
-AxisValues sampledValues(const FilledSources& sources)
+AxisValues sampledValues(const SourceList& sources)
 {
   constexpr std::uint64_t mostChunks = 8;
   AxisValues values;
@@ -142,7 +142,7 @@ double occupied(const std::vector<double>& sorted)
 }
 
 /// The size that most points occupy on each axis, world units; nothing if no point could be read.
-std::optional<glm::dvec3> bulkSize(const FilledSources& sources)
+std::optional<glm::dvec3> bulkSize(const SourceList& sources)
 {
   const AxisValues values = sampledValues(sources);
   glm::dvec3 size(0.0);
@@ -196,7 +196,7 @@ Result<double> stepAmongOutliers(double extent, double bulk)
   return step;
 }
 
-Result<GridChoice> defaultGrid(const FilledSources& sources)
+Result<GridChoice> defaultGrid(const SourceList& sources)
 {
   constexpr double outlying = 1000.0; // times what most points have
   const Bounds bounds = declaredBounds(sources);
@@ -234,7 +234,7 @@ Result<GridChoice> defaultGrid(const FilledSources& sources)
 }
 
 /// The finest scale of all sources, with the offset of the first that has it.
-std::optional<QuantisationGrid> finestGrid(const FilledSources& sources)
+std::optional<QuantisationGrid> finestGrid(const SourceList& sources)
 {
   std::optional<QuantisationGrid> finest;
   for (PointSource* const source : sources)
@@ -260,7 +260,7 @@ std::optional<QuantisationGrid> finestGrid(const FilledSources& sources)
   return finest;
 }
 
-void warnOfRounding(const FilledSources& sources, GridChoice& choice)
+void warnOfRounding(const SourceList& sources, GridChoice& choice)
 {
   const glm::dvec3& s = choice.grid.scale;
   for (PointSource* const source : sources)
@@ -281,7 +281,7 @@ void warnOfRounding(const FilledSources& sources, GridChoice& choice)
 
 namespace
 {
-Result<GridChoice> chosenGrid(const FilledSources& sources, const std::optional<double>& precision)
+Result<GridChoice> chosenGrid(const SourceList& sources, const std::optional<double>& precision)
 {
   const std::optional<QuantisationGrid> finest = finestGrid(sources);
   if (!precision && !finest)
@@ -328,14 +328,15 @@ Result<GridChoice> givenGrid(
 {
   GridChoice choice;
   choice.grid = grid;
-  placeExtent(declaredBounds(sourcesWithPoints(sources)), choice);
+  // A tile's sources without points stand for some of other tiles: all tell of one extent.
+  placeExtent(declaredBounds(allSources(sources)), choice);
   return choice;
 }
 
 Result<GridChoice> chooseGrid(
   const std::vector<std::unique_ptr<PointSource>>& given, const std::optional<double>& precision)
 {
-  const FilledSources sources = sourcesWithPoints(given);
+  const SourceList sources = sourcesWithPoints(given);
   constexpr double coarsest = 1e12;
   if (precision && (!(*precision > 0.0) || !(*precision <= coarsest)))
   {

@@ -121,7 +121,8 @@ Result<double> TilesBuild::chosenEdge(const PointSources& sources) const
   return roundDown(std::min(edge, 1e9));
 }
 
-/// By input. The points of all may take half of what is free: the tiles need room, too.
+/// By input. The points of all, not yet coded, may take half of what is free: the tiles need room,
+/// too.
 std::vector<bool> TilesBuild::keptInputs(const PointSources& sources) const
 {
   std::vector<bool> kept(sources.size(), request_.decoding == Decoding::Once);
@@ -130,8 +131,9 @@ std::vector<bool> TilesBuild::keptInputs(const PointSources& sources) const
   {
     const SourceDescription& source = sources[s]->description();
     kept[s] = !decodesFast(source);
+    const std::size_t position = source.grid ? sizeof(glm::ivec3) : sizeof(glm::dvec3);
     bytes += kept[s] ? static_cast<double>(source.pointCount) *
-        static_cast<double>(sizeof(glm::dvec3) + source.schema.pointBytes())
+        static_cast<double>(position + source.schema.pointBytes())
                      : 0.0;
   }
   const auto free = static_cast<double>(diskSpaceOf(existing(request_.folder)).freeBytes);

@@ -1,5 +1,6 @@
 #include "pointfront/Mosaic/KeptPoints.h"
 
+#include "pointfront/Codec/BlockCodec.h"
 #include "pointfront/Codec/Checksum.h"
 #include "pointfront/Disk/InputFile.h"
 #include "pointfront/Disk/TemporaryFile.h"
@@ -13,8 +14,10 @@
 
 // The file: blocks in the order they were written; a row of three numbers for each chunk (Block);
 // a trailer of four: hash of key and shape, chunks, hash of the rows, offset of the rows.
-// A block: points (32 bits), how positions are given (Positions), they, and for each column whether
-// all its values are equal (8 bits) and that one value, or all.
+// A block: points (32 bits), how positions are given (Positions), and the coded positions and
+// columns, each after its codec (8 bits) and its size (32 bits). A store codes its blocks likewise:
+// most inputs whose points are kept are too many for memory, so that fewer bytes are sooner written
+// and read.
 
 namespace pointfront
 {
@@ -53,16 +56,25 @@ bool stepsOf(const std::vector<glm::dvec3>& positions, const QuantisationGrid& g
   return true;
 }
 
-bool allEqual(const std::vector<std::byte>& column, std::size_t bytes)
-{
-  return column.size() > bytes &&
-    std::memcmp(column.data(), column.data() + bytes, column.size() - bytes) == 0;
-}
-
 void append(std::vector<std::byte>& block, const void* data, std::size_t bytes)
 {
   const auto* const from = static_cast<const std::byte*>(data);
   block.insert(block.end(), from, from + bytes);
+}
+
+void encodeValues(const void* values, const BlockShape& shape, std::vector<std::byte>& block)
+{
+  const CodedBlock coded = encodeBlock(static_cast<const std::byte*>(values), shape);
+  const auto bytes = static_cast<std::uint32_t>(coded.bytes.size());
+  block.push_back(static_cast<std::byte>(coded.codec));
+  append(block, &bytes, sizeof bytes);
+  append(block, coded.bytes.data(), coded.bytes.size());
+}
+
+BlockShape shapeOf(std::size_t points, const Attribute& attribute)
+{
+  return { points, attribute.components,
+    static_cast<unsigned>(attribute.bytes() / attribute.components) };
 }
 
 void encode(const PointBatch& batch, const AttributeSchema& schema,
@@ -71,25 +83,14 @@ void encode(const PointBatch& batch, const AttributeSchema& schema,
   thread_local std::vector<glm::ivec3> steps;
   const auto points = static_cast<std::uint32_t>(batch.positions.size());
   block.clear();
-  block.reserve(
-    sizeof points + 1 + schema.size() + points * (sizeof(glm::dvec3) + schema.pointBytes()));
   append(block, &points, sizeof points);
   const bool whole = grid && stepsOf(batch.positions, *grid, steps);
   block.push_back(std::byte(whole ? Positions::Steps : Positions::World));
-  if (whole)
-  {
-    append(block, steps.data(), steps.size() * sizeof(glm::ivec3));
-  }
-  else
-  {
-    append(block, batch.positions.data(), batch.positions.size() * sizeof(glm::dvec3));
-  }
+  whole ? encodeValues(steps.data(), { points, 3, sizeof(int) }, block)
+        : encodeValues(batch.positions.data(), { points, 3, sizeof(double) }, block);
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    const std::vector<std::byte>& column = batch.columns[c];
-    const bool equal = allEqual(column, schema[c].bytes());
-    block.push_back(std::byte(equal ? 1 : 0));
-    append(block, column.data(), equal ? schema[c].bytes() : column.size());
+    encodeValues(batch.columns[c].data(), shapeOf(points, schema[c]), block);
   }
 }
 
@@ -108,9 +109,20 @@ public:
     {
       return false;
     }
-    if (bytes > 0)
+    std::memcpy(to, next_, bytes);
+    next_ += bytes;
+    left_ -= bytes;
+    return true;
+  }
+  bool takeValues(const BlockShape& shape, void* values)
+  {
+    std::uint8_t codec = 0;
+    std::uint32_t bytes = 0;
+    if (!take(&codec, sizeof codec) || !take(&bytes, sizeof bytes) || bytes > left_ ||
+      !decodeBlock(
+        static_cast<BlockCodec>(codec), next_, bytes, shape, static_cast<std::byte*>(values)))
     {
-      std::memcpy(to, next_, bytes);
+      return false;
     }
     next_ += bytes;
     left_ -= bytes;
@@ -122,14 +134,6 @@ private:
   const std::byte* next_;
   std::size_t left_;
 };
-
-void repeat(std::vector<std::byte>& column, std::size_t bytes)
-{
-  for (std::size_t at = bytes; at < column.size(); at += bytes)
-  {
-    std::memcpy(column.data() + at, column.data(), bytes);
-  }
-}
 
 bool decode(const std::byte* bytes, std::size_t size, std::uint64_t mostPoints,
   const AttributeSchema& schema, const std::optional<QuantisationGrid>& grid, PointBatch& batch)
@@ -144,7 +148,7 @@ bool decode(const std::byte* bytes, std::size_t size, std::uint64_t mostPoints,
   batch.resize(points, schema);
   if (kind == static_cast<std::uint8_t>(Positions::World))
   {
-    if (!block.take(batch.positions.data(), points * sizeof(glm::dvec3)))
+    if (!block.takeValues({ points, 3, sizeof(double) }, batch.positions.data()))
     {
       return false;
     }
@@ -153,7 +157,7 @@ bool decode(const std::byte* bytes, std::size_t size, std::uint64_t mostPoints,
   {
     thread_local std::vector<glm::ivec3> steps;
     steps.resize(points);
-    if (!grid || !block.take(steps.data(), points * sizeof(glm::ivec3)))
+    if (!grid || !block.takeValues({ points, 3, sizeof(int) }, steps.data()))
     {
       return false;
     }
@@ -164,26 +168,19 @@ bool decode(const std::byte* bytes, std::size_t size, std::uint64_t mostPoints,
   }
   for (std::size_t c = 0; c < schema.size(); ++c)
   {
-    std::vector<std::byte>& column = batch.columns[c];
-    std::uint8_t equal = 0;
-    if (!block.take(&equal, sizeof equal) ||
-      !block.take(column.data(), equal != 0 ? schema[c].bytes() : column.size()))
+    if (!block.takeValues(shapeOf(points, schema[c]), batch.columns[c].data()))
     {
       return false;
-    }
-    if (equal != 0)
-    {
-      repeat(column, schema[c].bytes());
     }
   }
   return block.atEnd();
 }
 
-/// Tells files of other inputs, and of inputs that are read otherwise.
+/// Tells files of other inputs, of inputs that are read otherwise, and of older versions.
 std::uint64_t hashOfShape(const std::string& key, const AttributeSchema& schema,
   const std::optional<QuantisationGrid>& grid)
 {
-  std::string text = key;
+  std::string text = "coded " + key;
   for (const Attribute& attribute : schema)
   {
     text += " " + attribute.name + " " + std::to_string(static_cast<int>(attribute.type)) + " " +

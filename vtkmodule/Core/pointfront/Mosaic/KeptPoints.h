@@ -14,8 +14,8 @@ namespace pointfront
 
 /// Writes the points of an input to a file while they are read once, so that tiles need not decode
 /// the input again. The file is a convenience: who finds none, or another one, reads the input.
-/// Size     12 bytes a point if all coordinates are steps of 32 bits of the input's grid, else 24,
-///          and its attributes; a column of equal values of a chunk takes one value.
+/// Size     coded as a store's blocks are: at most 12 bytes a point if all coordinates are steps of
+///          32 bits of the input's grid, else 24, and its attributes; half of that in usual clouds.
 /// Exact    what is read back has the bits of what was added.
 /// Threads  add() from any.
 class PointKeeper

@@ -6,15 +6,12 @@ So the bytes are those of that command, and what it has done is not done again.
 
 import argparse
 import asyncio
+import collections
 import contextlib
-import ctypes
 import json
 import logging
 import os
-import pathlib
-import shlex
 import signal
-import socket
 import subprocess
 import sys
 import threading
@@ -24,12 +21,12 @@ import uuid
 from . import _bucket
 from ._errors import PointFrontError
 from ._host import TOOL
+from ._steps import LOGS, POLL, place
+from ._version import __version__
 
 INTERRUPTED = 130  # an exit status
 TRIES = 10  # workers that may die under a step
 RETRIES = 2  # times a step is done again that a signal ended
-POLL = 0.5  # seconds
-LOGS = "work/logs"  # below the output's folder
 
 
 def parser():
@@ -60,97 +57,25 @@ class _Stopped(Exception):
     """The user asked to stop."""
 
 
-def _dies_with_its_worker():
-    """In the tool's process, before it begins: who kills a worker kills what it runs."""
-    with contextlib.suppress(OSError, AttributeError):
-        set_death_signal = 1
-        ctypes.CDLL(None).prctl(set_death_signal, signal.SIGKILL)
-
-
-class _Folder:
-    """An output that all workers see under one name: steps are done in it."""
-
-    options, environment = (), None
-
-    def __init__(self, folder):
-        self.folder = pathlib.Path(folder)
-        self.address = str(folder)
-
-    def prepare(self, step):
-        """Nothing: what the step needs is there."""
-
-    publish = prepare
-
-    def public(self, text):
-        return text
-
-    def path(self, name):
-        return self.folder / name
-
-    def log(self, name, text):
-        logs = self.path(LOGS)
-        logs.mkdir(parents=True, exist_ok=True)
-        with open(logs / name, "a", encoding="utf-8") as log:
-            log.write(text)
-
-    def stop(self, mark, wanted=True):
-        """Ends the steps of a run, or takes the word back."""
-        if not wanted:
-            self.path(mark).unlink()
-        elif self.path(mark).parent.is_dir():
-            self.path(mark).touch()
-
-    def stopped(self, mark):
-        return self.path(mark).exists()
-
-
-def _place(output, run):
-    return _bucket.Workplace.of(output, run) if _bucket.is_bucket(output) else _Folder(output)
-
-
-def run_step(step, arguments, output, working_folder, stop):
-    """Runs one step of the tool, on whichever machine a worker is; gives the error's text, or None.
-
-    `output` is a folder or a bucket's address. `stop` is the name of a file there: when it appears,
-    the step is ended. What the tool says goes to work/logs. RuntimeError: a signal ended the tool
-    (no memory, for one).
+def _shipped():
+    """The function that workers call. It travels by value: neither the scheduler nor a worker has
+    to import this package to read it, and a machine without it can say so.
     """
-    if not os.path.isdir(working_folder):
-        return f"{socket.gethostname()} has no folder {working_folder}: all workers need the same"
-    try:
-        return _run_at(_place(output, stop), step, arguments, working_folder, stop)
-    except PointFrontError as problem:
-        return str(problem)
+    def run(step, version, **rest):
+        import socket
 
+        advice = "each worker needs this PointFront in the Python that runs it"
+        try:
+            import pointfront
+            from pointfront._steps import run_step
+        except ImportError as problem:
+            return f"{socket.gethostname()} cannot import PointFront ({problem}): {advice}"
+        if pointfront.__version__ != version:
+            return (f"{socket.gethostname()} has PointFront {pointfront.__version__}, and this is "
+                    f"{version}: {advice}")
+        return run_step(step, **rest)
 
-def _run_at(place, step, arguments, working_folder, stop):
-    place.prepare(step)
-    command = [str(TOOL), *arguments, *place.options, "--only", step, "--progress", "none"]
-    begin = time.time()
-    with subprocess.Popen(command, cwd=working_folder, stdin=subprocess.DEVNULL,
-                          stdout=subprocess.PIPE, stderr=subprocess.STDOUT, env=place.environment,
-                          preexec_fn=_dies_with_its_worker) as process:
-        said = None
-        while said is None:
-            try:
-                said = process.communicate(timeout=POLL)[0].decode(errors="replace")
-            except subprocess.TimeoutExpired:
-                if place.stopped(stop):
-                    process.terminate()
-        status = process.returncode
-    place.log(f"{step.replace(':', '-')}.log",
-              f"{time.strftime('%Y-%m-%d %H:%M:%S', time.localtime(begin))} "
-              f"{socket.gethostname()} {shlex.join(command)}\n{said}"
-              f"status {status} after {time.time() - begin:.1f} s\n")
-    logs = f"{place.address}/{LOGS}"
-    if status < 0:
-        raise RuntimeError(f"{step}: ended by {signal.Signals(-status).name}; see {logs}")
-    if status == 0:
-        if "was done before" not in said:
-            place.publish(step)
-        return None
-    lines = [line for line in place.public(said).splitlines() if ": warning: " not in line]
-    return lines[-1] if lines else f"{step}: ended with status {status}; see {logs}"
+    return run
 
 
 class _Progress:
@@ -175,6 +100,11 @@ class _Progress:
         start = "\r" if self.style == "line" else ""
         print(f"{start}{text}", end=end, file=sys.stderr, flush=True)
 
+    def say(self, text):
+        """A line that stays."""
+        self.close()
+        print(f"pointfront cluster build: {text}", file=sys.stderr, flush=True)
+
     def close(self):
         if self.style == "line":
             print("\r\033[K", end="", file=sys.stderr, flush=True)
@@ -197,12 +127,40 @@ class _Keeper(threading.Thread):
         without = 0
         while not self.ended.wait(self.EVERY):
             with contextlib.suppress(Exception):
-                alive = len(self.build.client.scheduler_info()["workers"])
+                alive = len(self.build.client.nthreads())
                 without = 0 if alive else without + 1
                 if alive < self.workers:
                     self.cluster.scale(self.workers)
                 if without == self.MOST:
                     self.build.client.cancel(list(self.build.futures))
+
+
+class _Lookout(threading.Thread):
+    """Says when a scheduler has had no worker for a while, and when it has some again: jobs wait in
+    a queue or have ended, and nothing else would tell.
+    """
+
+    AFTER = 30.0  # seconds
+
+    def __init__(self, build, address):
+        super().__init__(daemon=True)
+        self.build, self.address = build, address
+        self.ended = threading.Event()
+
+    def run(self):
+        last, told = time.monotonic(), False
+        while not self.ended.wait(min(5.0, self.AFTER)):
+            with contextlib.suppress(Exception):
+                alive = len(self.build.client.nthreads())
+                last = time.monotonic() if alive else last
+                if told and alive:
+                    told = False
+                    self.build.progress.say(f"{self.address} has workers again: goes on")
+                elif not told and time.monotonic() - last >= self.AFTER:
+                    told = True
+                    self.build.progress.say(
+                        f"{self.address} has no worker: waits for one. Are its jobs queued, or "
+                        "has their time ended?")
 
 
 class ClusterBuild:
@@ -216,7 +174,7 @@ class ClusterBuild:
         self.futures = {}  # those that are waited for: the step of each
         self.run_name = f"stop-{uuid.uuid4().hex}"
         self.stop = f"work/{self.run_name}"  # a file of the output
-        self.place = _place(output, self.stop)
+        self.place = place(output, self.stop)
         self.done = False
 
     def work(self, name):
@@ -240,30 +198,49 @@ class ClusterBuild:
         self.place.publish(step)
         return self.place.public(done.stdout)
 
+    def submit(self, phase, steps):
+        """Gives steps to the scheduler: their futures."""
+        # Keys of one group, whose tasks the scheduler keeps until a worker is free. Others it deals
+        # out at once, without knowing how long they take, and some workers end long before others.
+        keys = [f"('{phase}-{self.run_name}', {len(self.futures) + number})"
+                for number in range(len(steps))]
+        futures = self.client.map(
+            _shipped(), steps, key=keys, retries=RETRIES, pure=False, version=__version__,
+            arguments=self.arguments, output=self.output, working_folder=os.getcwd(),
+            stop=self.stop)
+        self.futures |= zip(futures, steps)
+        return futures
+
     def everywhere(self, phase, weights, share_before, share):
         """Runs steps, given with their weights, on the workers. Those that fail do not keep others
         from running; StepFailed names them at the end.
         """
-        from distributed import as_completed
+        from distributed import KilledWorker, as_completed
 
         total = sum(weights.values()) or 1
-        # Keys of one group, whose tasks the scheduler keeps until a worker is free. Others it deals
-        # out at once, without knowing how long they take, and some workers end long before others.
-        keys = [f"('{phase}-{self.run_name}', {number})" for number in range(len(weights))]
-        futures = self.futures = dict(zip(self.client.map(
-            run_step, list(weights), key=keys, retries=RETRIES, pure=False,
-            arguments=self.arguments, output=self.output, working_folder=os.getcwd(),
-            stop=self.stop), weights))
+        deaths = collections.Counter()
+        self.futures = {}
+        self.submit(phase, list(weights))
         done, faults = 0, []
         self.progress.show(phase, 0, len(weights), share_before)
         weight = 0
-        for future in as_completed(list(futures)):
-            step = futures[future]
+        completed = as_completed(list(self.futures))
+        for future in completed:
+            step = self.futures[future]
             try:
                 fault = future.result()
+            except KilledWorker as problem:
+                # A scheduler that runs gives up sooner than the one of this machine.
+                deaths[step] += problem.allowed_failures + 1
+                if deaths[step] < TRIES:
+                    completed.update(self.submit(phase, [step]))
+                    future.release()
+                    continue
+                fault = (f"{deaths[step]} workers died while they did it: was their job too small "
+                         "for it, or its time too short?")
             # A signal ended the tool, or the scheduler gave up.
             except (Exception, asyncio.CancelledError) as problem:
-                fault = f"{type(problem).__name__}: {problem}"
+                fault = f"{type(problem).__name__}: {' '.join(str(problem).split())}"
             if fault:
                 faults.append(f"{step}: {fault.removeprefix('pointfront build: ')}")
             future.release()
@@ -388,16 +365,16 @@ def main(arguments):
         return 2
     progress = _Progress(chosen.progress)
     signal.signal(signal.SIGTERM, signal.default_int_handler)
-    build, client, cluster, keeper = None, None, None, None
+    build, client, cluster, watch = None, None, None, None
     try:
         output, options = _output(chosen.output, rest)
         with contextlib.nullcontext() if chosen.scheduler else signals_held_back():
             client, cluster = _client(chosen)
         tool = ["build", *rest, *_per_process(chosen, rest), *options, "--tiles"]
         build = ClusterBuild(client, tool, output, progress)
-        if cluster is not None:
-            keeper = _Keeper(build, cluster, len(cluster.workers))
-            keeper.start()
+        watch = (_Lookout(build, chosen.scheduler) if cluster is None
+                 else _Keeper(build, cluster, len(cluster.workers)))
+        watch.start()
         report = build.run()
         _ignore_signals()  # all is done
         progress.close()
@@ -415,8 +392,8 @@ def main(arguments):
         print(f"pointfront cluster build: {problem}", file=sys.stderr)
         return 1
     finally:
-        if keeper is not None:
-            keeper.ended.set()
+        if watch is not None:
+            watch.ended.set()
         _end(build, client, cluster)
 
 
@@ -428,10 +405,10 @@ def _ignore_signals():
 def _end(build, client, cluster):
     """Ends what still runs, here and on the workers."""
     _ignore_signals()
-    place = build.place if build and not build.done else None
+    where = build.place if build and not build.done else None
     with contextlib.suppress(Exception):
-        if place:
-            place.stop(build.stop)
+        if where:
+            where.stop(build.stop)
             time.sleep(2 * POLL if cluster is None else 0)
     with contextlib.suppress(Exception):
         if client:
@@ -440,5 +417,5 @@ def _end(build, client, cluster):
         if cluster:
             cluster.close(timeout=5)
     with contextlib.suppress(Exception):
-        if place:
-            place.stop(build.stop, wanted=False)
+        if where:
+            where.stop(build.stop, wanted=False)

@@ -85,7 +85,7 @@ if (POINTFRONT_HOST STREQUAL "VTK" AND POINTFRONT_WRAP_PYTHON)
       _classes.py _clouds.py _cluster.py _controls.py _doors.py _errors.py _extracts.py _far.py
       _gate.py
       _kernel.py _lines.py _meshes.py _orbit.py _page.py _pictures.py _plotting.py _progress.py
-      _queries.py _remote.py _serve.py _stream.py _window.py py.typed)
+      _queries.py _remote.py _serve.py _steps.py _stream.py _window.py py.typed)
     configure_file("${from}/${file}" "${to}/${file}" COPYONLY)
     list(APPEND package_files "${file}")
   endforeach ()

@@ -16,7 +16,7 @@ import unittest
 
 import psutil
 
-from pointfront import _cluster
+from pointfront import _cluster, _steps
 from pointfront._host import TOOL
 
 OPTIONS = ("--tile", "30", "--normals", "pca", "--height-above-ground", "--progress", "none")
@@ -125,15 +125,17 @@ class Cluster(unittest.TestCase):
         said = self.build("--scheduler", address, status=1).stderr
         self.assertIn("pointfront cluster build: ", said)
 
-    def scheduler(self, port=0):
-        """A scheduler and two workers, each a process of its own, as a cluster has them: the three
-        processes and the scheduler's address."""
+    def scheduler(self, port=0, workers=2, bare=()):
+        """A scheduler and workers, each a process of its own, as a cluster has them: the processes
+        and the scheduler's address. Those named in `bare` do not find PointFront."""
         place = self.root / f"scheduler-{time.monotonic_ns()}.json"
         run = (sys.executable, "-B", "-m")
+        without = {name: text for name, text in os.environ.items() if name != "PYTHONPATH"}
         processes = [subprocess.Popen(
             [*run, "distributed.cli.dask_scheduler", "--host", HERE, "--port", str(port),
              "--no-dashboard", "--no-show", "--scheduler-file", str(place)],
-            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)]
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
+            env=without if "scheduler" in bare else None)]
         self.addCleanup(self.end, processes)
         end = time.monotonic() + 60
         while not place.exists():
@@ -141,13 +143,17 @@ class Cluster(unittest.TestCase):
             self.assertLess(time.monotonic(), end)
             time.sleep(0.05)
         address = json.loads(place.read_text())["address"]
-        for _ in range(2):
-            processes.append(subprocess.Popen(
-                [*run, "distributed.cli.dask_worker", address, "--host", HERE, "--no-dashboard",
-                 "--nthreads", "1", "--memory-limit", "0", "--death-timeout", "60",
-                 "--local-directory", str(self.root)],
-                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL))
+        for _ in range(workers):
+            processes.append(self.worker(address, without if "workers" in bare else None))
         return processes, address
+
+    def worker(self, address, environment=None):
+        return subprocess.Popen(
+            [sys.executable, "-B", "-m", "distributed.cli.dask_worker", address, "--host", HERE,
+             "--no-dashboard", "--nthreads", "1", "--memory-limit", "0", "--death-timeout", "60",
+             "--local-directory", str(self.root)],
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, env=environment,
+            cwd=self.root)
 
     @staticmethod
     def end(processes):
@@ -158,6 +164,65 @@ class Cluster(unittest.TestCase):
                         child.kill()
             process.kill()
             process.wait()
+
+    def test_workers_without_this_package_are_told(self):
+        """The scheduler needs none."""
+        _, address = self.scheduler(workers=1, bare=("scheduler", "workers"))
+        said = self.build("--scheduler", address, "--threads", "1", status=1).stderr
+        self.assertIn("cannot import PointFront (No module named 'pointfront'): each worker needs",
+                      said)
+        self.assertEqual(len(said.splitlines()), 1, said)
+        _, address = self.scheduler(workers=1, bare=("scheduler",))
+        self.build("--scheduler", address, "--threads", "1")
+        self.assertEqual(tree(self.land), self.expected)
+
+    def test_workers_of_another_version_are_told(self):
+        _, address = self.scheduler(workers=1)
+        said = self.patched("_cluster.__version__ = '9.9.9'", address)
+        self.assertEqual(said.wait(120), 1)
+        self.assertIn("and this is 9.9.9: each worker needs this PointFront", said.stderr.read())
+        said.stderr.close()
+
+    def patched(self, change, address, options=OPTIONS):
+        """A build by a scheduler's workers, with something of the command changed."""
+        begin = f"from pointfront import _cluster; {change}; import sys; "
+        return subprocess.Popen(
+            [sys.executable, "-B", "-c", begin + "sys.exit(_cluster.main(sys.argv[1:]))", "build",
+             str(self.inputs), "-o", str(self.land), *options, "--threads", "1", "--scheduler",
+             address], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True)
+
+    def test_a_scheduler_without_workers_is_told(self):
+        processes, address = self.scheduler(workers=0)
+        process = self.patched("_cluster._Lookout.AFTER = 0.5", address)
+        said = process.stderr.readline()
+        self.assertEqual(said, f"pointfront cluster build: {address} has no worker: waits for one. "
+                         "Are its jobs queued, or has their time ended?\n")
+        processes.append(self.worker(address))
+        self.assertIn("has workers again: goes on", process.stderr.readline())
+        self.assertEqual(process.wait(120), 0)
+        process.stderr.close()
+        self.assertEqual(tree(self.land), self.expected)
+
+    def test_a_step_whose_workers_die_again_and_again(self):
+        """More often than a scheduler that was started elsewhere puts up with: three times."""
+        options = ("--tile", "1000", *OPTIONS[2:])  # one tile
+        usual = self.root / "one/land"
+        self.tool("build", self.inputs, "-o", usual, "--tiles", *options)
+        _, address = self.scheduler(workers=1)
+        process = self.patched("pass", address, options)
+        killed = 0
+        while process.poll() is None and killed < 5:
+            for step in running(self.land):
+                with contextlib.suppress(psutil.Error):
+                    if any(word.startswith("tile:") for word in step.cmdline()):
+                        step.parent().kill()
+                        killed += 1
+                        step.wait(10)
+            time.sleep(0.005)
+        self.assertEqual(process.wait(180), 0, process.stderr.read())
+        process.stderr.close()
+        self.assertEqual(killed, 5)
+        self.assertEqual(tree(self.land), tree(usual))
 
     def done(self):
         """The tiles that are done, by what they are: nobody writes them again without a trace."""
@@ -253,9 +318,9 @@ class Cluster(unittest.TestCase):
 
     def test_a_step_that_fails_is_told_and_logged(self):
         self.tool("build", self.inputs, "-o", self.land, "--tiles", *OPTIONS)
-        said = _cluster.run_step("tile:99_99", ["build", str(self.inputs), "-o", str(self.land),
-                                                "--tiles", *OPTIONS[:-2]],
-                                 str(self.land), os.getcwd(), str(self.land / "stop"))
+        said = _steps.run_step("tile:99_99", ["build", str(self.inputs), "-o", str(self.land),
+                                              "--tiles", *OPTIONS[:-2]],
+                               str(self.land), os.getcwd(), str(self.land / "stop"))
         self.assertIn("there is no such tile", said)
         log = (self.land / "work/logs/tile-99_99.log").read_text()
         self.assertIn("there is no such tile", log)

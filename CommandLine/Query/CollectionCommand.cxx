@@ -44,8 +44,10 @@ bool named(const std::string& path, const std::string& ending)
     path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// The tiles that an argument stands for: those of a folder, a list or a pattern, or itself.
-Result<std::vector<std::string>> tilesOf(const std::string& argument)
+/// The tiles that an argument stands for: those of a folder, a list or a pattern, or itself. Adds to
+/// `warnings` what a folder leaves out.
+Result<std::vector<std::string>> tilesOf(
+  const std::string& argument, std::vector<std::string>& warnings)
 {
   std::error_code failure;
   if (named(argument, ".pfronts"))
@@ -64,6 +66,10 @@ Result<std::vector<std::string>> tilesOf(const std::string& argument)
     if (folder->files.empty())
     {
       return makeError(Error::Kind::NotFound, argument + ": the folder has no store");
+    }
+    for (const std::string& warning : folder->warnings)
+    {
+      warnings.push_back(argument + ": " + warning);
     }
     return std::move(folder->files);
   }
@@ -213,12 +219,13 @@ void CollectionCommand::checkWords() const
   }
 }
 
-Result<std::vector<TileRequest>> CollectionCommand::requests() const
+Result<std::vector<TileRequest>> CollectionCommand::requests(
+  std::vector<std::string>& warnings) const
 {
   std::vector<TileRequest> requests;
   for (const std::string& argument : tiles_)
   {
-    const Result<std::vector<std::string>> paths = tilesOf(argument);
+    const Result<std::vector<std::string>> paths = tilesOf(argument, warnings);
     if (!paths)
     {
       return paths.error();
@@ -250,10 +257,15 @@ Result<CollectionReport> CollectionCommand::change(const CollectionOptions& opti
   {
     return compactCollection(path_, options);
   }
-  const Result<std::vector<TileRequest>> tiles = requests();
+  std::vector<std::string> warnings;
+  const Result<std::vector<TileRequest>> tiles = requests(warnings);
   if (!tiles)
   {
     return tiles.error();
+  }
+  for (const std::string& warning : warnings)
+  {
+    warn("collection", warning);
   }
   if (what_ == "add")
   {

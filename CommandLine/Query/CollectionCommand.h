@@ -20,7 +20,8 @@ public:
 
 private:
   void checkWords() const;
-  Result<std::vector<TileRequest>> requests() const;
+  /// Adds to `warnings` what folders leave out.
+  Result<std::vector<TileRequest>> requests(std::vector<std::string>& warnings) const;
   Result<CollectionReport> change(const CollectionOptions& options) const;
   Result<void> list() const;
   Result<void> verify() const;

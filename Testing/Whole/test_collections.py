@@ -268,6 +268,14 @@ class Collections(ToolTest):
         self.assertEqual(listed[0], "tile_0  3000 points  two lines/tile_0.pfront")
         self.assertTrue(listed[1].startswith("1 tiles, state 1"), listed)
 
+    def test_a_folder_says_what_it_leaves_out(self):
+        """As it does where it is opened itself."""
+        self.tile(0)
+        self.succeed("generate", "--points", 500, "-o", self.folder / "tiles/more.copc.laz")
+        said = self.succeed("collection", "create", self.city, self.folder / "tiles")
+        self.assertIn("tiles: 1 indices and COPC files are left out beside 1 stores", said.err)
+        self.assertEqual(self.names(), ["tile_0"])
+
     def test_a_path_counts_once_and_a_link_as_often_as_it_is_named(self):
         tiles = [self.tile(number) for number in range(3)]
         (self.folder / "linked").symlink_to("tiles")
@@ -360,6 +368,13 @@ class Collections(ToolTest):
                            self.folder / "there.pfront")
         self.assertIn("another coordinate reference system", said.err)
         self.assertFalse(self.city.exists())
+        # A tile that goes has no say.
+        self.succeed("build", self.folder / "a.las", "-o", self.folder / "silent.pfront")
+        self.collection("create", self.city, here, self.folder / "silent.pfront")
+        self.refuse(1, "collection", "add", self.city, self.folder / "there.pfront")
+        self.collection("replace", self.city, self.folder / "there.pfront", "--name", "here")
+        self.refuse(1, "collection", "add", self.city, here)
+        self.collection("undo", self.city)
 
     def test_a_full_disk_leaves_the_state_before(self):
         tiles = [self.tile(number) for number in range(4)]

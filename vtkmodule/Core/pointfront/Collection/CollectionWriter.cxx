@@ -84,6 +84,25 @@ std::vector<const TileName*> tilesWithout(
   return kept;
 }
 
+/// The coordinate reference system that the tiles which stay name; empty: none does.
+std::string systemWithout(
+  const std::unordered_set<std::uint32_t>& removed, const CollectionRecord& record)
+{
+  std::set<std::uint32_t> kinds;
+  for (const CollectedTile& tile : record.tiles)
+  {
+    removed.count(tile.is.id) == 0 ? void(kinds.insert(tile.kind)) : void();
+  }
+  for (const std::uint32_t kind : kinds)
+  {
+    if (std::string system = projectionOf(record.kinds[kind]); !system.empty())
+    {
+      return system;
+    }
+  }
+  return {};
+}
+
 struct Change
 {
   std::vector<TileName> removed;
@@ -139,7 +158,7 @@ Result<CollectionReport> apply(Begun begun, Change change, const CollectionOptio
     return apart.error();
   }
   Result<void> fits = nameApart(path, kept, added);
-  const std::string system = kept.empty() ? "" : projectionOf(begun.record->whole);
+  const std::string system = systemWithout(removed, *begun.record);
   fits = fits ? checkSystems(path, added, system, options.sameSystem) : fits;
   if (!fits)
   {

@@ -44,8 +44,8 @@ bool named(const std::string& path, const std::string& ending)
     path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// The tiles that an argument stands for: those of a folder, a list or a pattern, or itself. Adds to
-/// `warnings` what a folder leaves out.
+/// The tiles that an argument stands for: those of a folder, a list or a pattern, or itself; and
+/// what a folder leaves out.
 Result<std::vector<std::string>> tilesOf(
   const std::string& argument, std::vector<std::string>& warnings)
 {
@@ -132,7 +132,7 @@ Result<std::vector<std::string>> faultsOf(const CollectionCloud& cloud, const st
   {
     faults.push_back(heads->firstError);
   }
-  for (std::size_t t = 0; t < cloud.record().tiles.size(); ++t)
+  for (const std::size_t t : cloud.tileNumbers())
   {
     if (CancelSignal::requested())
     {
@@ -296,15 +296,16 @@ Result<void> CollectionCommand::list() const
     return cloud.error();
   }
   const CollectionRecord& record = (*cloud)->record();
+  const std::vector<std::size_t> shown = (*cloud)->tileNumbers();
   if (json_)
   {
     nlohmann::ordered_json object;
     object["state"] = record.state;
-    object["points"] = record.whole.pointCount;
+    object["points"] = (*cloud)->description().pointCount;
     object["tiles"] = nlohmann::ordered_json::array();
-    for (const CollectedTile& tile : record.tiles)
+    for (const std::size_t t : shown)
     {
-      object["tiles"].push_back(tileJson(tile));
+      object["tiles"].push_back(tileJson(record.tiles[t]));
     }
     object["history"] = nlohmann::ordered_json::array();
     for (const CollectionChange& change : record.history)
@@ -314,15 +315,16 @@ Result<void> CollectionCommand::list() const
     std::printf("%s\n", dumped(object).c_str());
     return {};
   }
-  for (const CollectedTile& tile : record.tiles)
+  for (const std::size_t t : shown)
   {
+    const CollectedTile& tile = record.tiles[t];
     // One line a tile, whatever the folders of its address are called.
     std::printf("%s  %llu points  %s%s%s\n", printableText(tile.is.name).c_str(),
       static_cast<unsigned long long>(tile.pointCount), printableText(tile.is.address).c_str(),
       tile.is.epoch.empty() ? "" : "  ", printableText(tile.is.epoch).c_str());
   }
   std::printf(
-    "%zu tiles, state %llu\n", record.tiles.size(), static_cast<unsigned long long>(record.state));
+    "%zu tiles, state %llu\n", shown.size(), static_cast<unsigned long long>(record.state));
   for (auto change = record.history.rbegin(); change != record.history.rend(); ++change)
   {
     std::printf("  can be undone: %s\n", printableText(change->what).c_str());
@@ -342,7 +344,7 @@ Result<void> CollectionCommand::verify() const
     return found.error();
   }
   const std::vector<std::string>& faults = *found;
-  const std::size_t checked = cloud ? (*cloud)->record().tiles.size() : 0;
+  const std::size_t checked = cloud ? (*cloud)->tileNumbers().size() : 0;
   if (json_)
   {
     nlohmann::ordered_json object;

@@ -268,14 +268,6 @@ class Collections(ToolTest):
         self.assertEqual(listed[0], "tile_0  3000 points  two lines/tile_0.pfront")
         self.assertTrue(listed[1].startswith("1 tiles, state 1"), listed)
 
-    def test_a_folder_says_what_it_leaves_out(self):
-        """As it does where it is opened itself."""
-        self.tile(0)
-        self.succeed("generate", "--points", 500, "-o", self.folder / "tiles/more.copc.laz")
-        said = self.succeed("collection", "create", self.city, self.folder / "tiles")
-        self.assertIn("tiles: 1 indices and COPC files are left out beside 1 stores", said.err)
-        self.assertEqual(self.names(), ["tile_0"])
-
     def test_a_path_counts_once_and_a_link_as_often_as_it_is_named(self):
         tiles = [self.tile(number) for number in range(3)]
         (self.folder / "linked").symlink_to("tiles")

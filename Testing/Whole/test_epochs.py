@@ -3,6 +3,7 @@ the epoch."""
 
 import json
 import os
+import shutil
 import unittest
 
 from pictures import read_png
@@ -145,6 +146,25 @@ class Epochs(SceneTest):
                            (f"{self.places}#epoch=2019", "no such file or folder")):
             self.assertIn(why, self.refuse(1, "build", words, "-o", self.folder / "no.pfront").err)
         self.assertFalse((self.folder / "no.pfront").exists())
+
+    def test_lists_and_checks_are_of_the_epoch(self):
+        city = self.folder / "city.pfcollection"
+        for verb, year in (("create", YEARS[0]), ("add", YEARS[1])):
+            shutil.copy(self.places / f"one-{year}.pfront", self.folder)
+            store = self.folder / f"one-{year}.pfront"
+            self.succeed("collection", verb, city, store, "--epoch", year)
+        named = f"{city}#epoch={YEARS[1]}"
+        listed = self.succeed("collection", "list", named, "--json").json
+        self.assertEqual([tile["epoch"] for tile in listed["tiles"]], [YEARS[1]])
+        self.assertEqual(listed["points"], POINTS)
+        self.assertTrue(self.succeed("verify", named).out.endswith("all sound\n"))
+        self.assertIn(f" {POINTS} points checked", self.succeed("verify", named).out)
+        (self.folder / f"one-{YEARS[0]}.pfront").unlink()
+        for command in (("verify",), ("collection", "verify")):
+            self.succeed(*command, named)
+            self.refuse(1, *command, city)
+        said = self.refuse(1, "collection", "add", city, store, "--epoch", f"{YEARS[1]} ")
+        self.assertIn("begins or ends with a blank", said.err)
 
     def test_an_epoch_is_named_once(self):
         city = self.places / "one.pfcollection"

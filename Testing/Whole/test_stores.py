@@ -217,6 +217,17 @@ class Tiles(ToolTest):
         self.assertIn("1000 of 3000000 points", out.err)
         self.assertEqual(self.succeed("info", folder, "--together", "--json").json["points"], 1000)
 
+    def test_a_folder_says_what_a_collection_leaves_out(self):
+        """As it does where it is opened itself."""
+        (self.folder / "tiles").mkdir()
+        self.succeed("build", TRIM, "-o", self.folder / "tiles/trim.pfront")
+        self.succeed("generate", "--points", 500, "-o", self.folder / "tiles/more.copc.laz")
+        city = self.folder / "city.pfcollection"
+        for verb in (("create",), ("replace",), ("create", "--force")):
+            said = self.succeed("collection", verb[0], city, self.folder / "tiles", *verb[1:])
+            self.assertIn("tiles: 1 indices and COPC files are left out beside 1 stores", said.err)
+        self.assertTrue(self.succeed("collection", "list", city).out.startswith("trim  "))
+
 
 if __name__ == "__main__":
     unittest.main(verbosity=2)

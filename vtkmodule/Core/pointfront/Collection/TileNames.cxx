@@ -46,6 +46,12 @@ Result<void> checkNames(const std::string& path, const std::vector<TileRequest>&
             (request.name.empty() && name == called ? "; rename its file" : ""));
       }
     }
+    const std::string& epoch = request.epoch;
+    if (!epoch.empty() && (epoch.front() == ' ' || epoch.back() == ' '))
+    {
+      return makeError(Error::Kind::BadArgument,
+        path + ": the epoch '" + epoch + "' begins or ends with a blank, which nobody sees");
+    }
   }
   return {};
 }

@@ -100,6 +100,7 @@ Result<std::shared_ptr<const CollectionCloud>> CollectionCloud::open(const std::
     return table.error();
   }
   cloud->table_ = std::move(*table);
+  cloud->epoch_ = asked.epoch;
   cloud->hierarchy_ = cloud->table_;
   cloud->description_ = record->whole;
   cloud->description_.path = path;
@@ -382,6 +383,19 @@ std::shared_ptr<const NodeRanges> CollectionCloud::epochRanges(NodeIndex most) c
   return all.together();
 }
 
+std::vector<std::size_t> CollectionCloud::tileNumbers() const
+{
+  std::vector<std::size_t> numbers;
+  for (std::size_t t = 0; t < record().tiles.size(); ++t)
+  {
+    if (!epoch_ || record().tiles[t].is.epoch == *epoch_)
+    {
+      numbers.push_back(t);
+    }
+  }
+  return numbers;
+}
+
 Result<VerifyReport> CollectionCloud::verify(const ProgressFunction& progress) const
 {
   Result<VerifyReport> all = heads_->verify(progress);
@@ -389,8 +403,12 @@ Result<VerifyReport> CollectionCloud::verify(const ProgressFunction& progress) c
   {
     all->pointsChecked = 0; // heads hold copies of points that their tiles have
   }
-  for (std::size_t t = 0; t < record().tiles.size() && all && all->ok; ++t)
+  for (const std::size_t t : tileNumbers())
   {
+    if (!all || !all->ok)
+    {
+      break;
+    }
     const Result<const CollectionTiles::Tile*> tile = table_->openTile(t);
     if (!tile)
     {

@@ -39,6 +39,8 @@ public:
 
   const CollectionRecord& record() const { return tiles_->record(); }
   const CollectionTiles& tiles() const { return *tiles_; }
+  /// Places in the record of the tiles that the cloud is made of: all, or the epoch's.
+  std::vector<std::size_t> tileNumbers() const;
 
   const StoreDescription& description() const override { return description_; }
   const std::shared_ptr<const Hierarchy>& hierarchy() const override { return hierarchy_; }
@@ -62,7 +64,7 @@ public:
   {
     return heads_->verify(progress);
   }
-  /// Verifies the heads and all tiles.
+  /// Verifies the heads and the cloud's tiles.
   Result<VerifyReport> verify(const ProgressFunction& progress = {}) const override;
 
 private:
@@ -82,6 +84,7 @@ private:
   std::shared_ptr<const CollectionTable> table_;
   std::shared_ptr<const Hierarchy> hierarchy_; ///< the same
   std::optional<EpochColumn> epochs_;
+  std::optional<std::string> epoch_; ///< the path names it
   StoreDescription description_;
   bool farTiles_ = false;
 };

@@ -107,9 +107,10 @@ class Places(LimitsTest):
 
     def test_a_point_beyond_1e15_is_left_out_and_told(self):
         path = self.folder / "far.csv"
-        path.write_text("x,y,z\n0,0,0\n1,1,1\n1e16,1,1\n")
-        outcome = self.succeed("build", path, "-o", self.folder / "far.pfront")
-        self.assertIn("1 outside the grid's range", outcome.err)
+        for far in ("1.1e15", "9e15", "1e16"):
+            path.write_text(f"x,y,z\n0,0,0\n1,1,1\n-{far},1,1\n1,1,{far}\n")
+            outcome = self.succeed("build", path, "-o", self.folder / "far.pfront", "--force")
+            self.assertIn("2 outside the grid's range", outcome.err)
 
     def test_more_steps_than_32_bits_hold_are_refused(self):
         path = self.folder / "wide.csv"
@@ -183,6 +184,39 @@ class Counts(LimitsTest):
                 self.succeed(*words)
             else:
                 self.assertIn("at most 120", self.refuse(2, *words).err)
+
+
+class Records(ToolTest):
+    """Variable length records of LAS files."""
+
+    def records(self, path):
+        """(owner, number) of each in a LAS file."""
+        data = path.read_bytes()
+        size, _, count = struct.unpack_from("<HII", data, 94)
+        found, at = [], size
+        for _ in range(count):
+            owner, number, length = struct.unpack_from("<2x16sHH32x", data, at)
+            found.append((owner.rstrip(b"\0").decode(), number))
+            at += 54 + length
+        return found
+
+    def test_records_of_other_owners_are_left_out(self):
+        given = [("acme", 7), ("LASF_Spec", 3)]
+        path = write_las(self.folder / "a.las", [(0, 0, 0, 0, 0, 0), (1, 1, 1, 0, 0, 0)])
+        data = path.read_bytes()
+        own = b"".join(struct.pack("<2x16sHH32x", owner.encode(), number, 4) + b"text"
+                       for owner, number in given)
+        header = bytearray(data[:227])
+        struct.pack_into("<II", header, 96, 227 + len(own), len(given))
+        path.write_bytes(bytes(header) + own + data[227:])
+        self.assertEqual(self.records(path), given)
+        store = self.folder / "a.pfront"
+        built = self.succeed("build", path, "-o", store, "--assume-crs", "EPSG:2154")
+        self.assertEqual(built.err, "")
+        self.succeed("export", store, "-o", self.folder / "b.las")
+        owners = self.records(self.folder / "b.las")
+        self.assertIn(given[1], owners)
+        self.assertNotIn(given[0], owners)
 
 
 class Views(LimitsTest):

@@ -27,7 +27,9 @@ std::int64_t rounded(double v)
 std::optional<Rejection> fault(const glm::dvec3& world, const glm::dvec3& steps)
 {
   const double reach = std::max({ std::abs(steps.x), std::abs(steps.y), std::abs(steps.z) });
-  if (reach <= largestSteps && !std::isnan(steps.x + steps.y + steps.z))
+  const double far = std::max({ std::abs(world.x), std::abs(world.y), std::abs(world.z) });
+  if (reach <= largestSteps && far <= farthestCoordinate &&
+    !std::isnan(steps.x + steps.y + steps.z))
   {
     return std::nullopt;
   }

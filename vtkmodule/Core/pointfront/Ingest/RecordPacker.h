@@ -20,7 +20,7 @@ enum class Rejection : std::uint8_t
 {
   NotANumber,
   Infinite,
-  OutsideGrid, ///< more than 2^53 steps from the grid's origin
+  OutsideGrid, ///< more than 2^53 steps from the grid's origin, or beyond farthestCoordinate
   Count
 };
 

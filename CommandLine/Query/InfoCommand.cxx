@@ -7,7 +7,6 @@
 #include "SourceFormats.h"
 #include "SourceInfo.h"
 #include "StatisticsReport.h"
-#include "StoreEstimate.h"
 #include "StoreInfo.h"
 #include "Values.h"
 
@@ -150,24 +149,41 @@ Result<void> InfoCommand::run()
       }
     }
   }
+  const bool several = inputs > 1 && estimates_.inputs() > 1;
+  if (!json_ && several)
+  {
+    print(std::to_string(estimates_.inputs()) + " inputs as one" + estimates_.text());
+  }
   if (json_ && !reports.empty())
   {
-    const nlohmann::ordered_json object =
+    nlohmann::ordered_json object =
       inputs == 1 ? reports[0] : nlohmann::ordered_json{ { "files", reports } };
+    if (several)
+    {
+      object["estimate"] = estimates_.json();
+    }
     // A name from a file need not be UTF-8: what is not becomes the replacement character.
     print(object.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   }
   return faults.empty() ? Result<void>() : faultsOf(faults, inputs);
 }
 
+StoreEstimate InfoCommand::estimate(const EstimatedInput& input)
+{
+  estimates_.add(input);
+  StoreEstimate own;
+  own.add(input);
+  return own;
+}
+
 Result<void> InfoCommand::tell(
-  const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const
+  const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports)
 {
   const bool store = isAddress(path) || SourceFormats::isStore(path) || namedLikeStore(path);
   return store ? tellStore(path, reports) : tellSource(path, opener, reports);
 }
 
-Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_json& reports) const
+Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_json& reports)
 {
   const TrafficCounts before = ByteTraffic::ofProcess().counts();
   Result<std::shared_ptr<const StoredCloud>> store = StoredCloudFormats::ofProcess().open(path);
@@ -198,14 +214,21 @@ Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_j
   }
   const TrafficCounts traffic = ByteTraffic::ofProcess().counts().since(before);
   const bool far = traffic.any() || isAddress(path);
+  const std::optional<StoreEstimate> built = description.version == 0
+    ? std::optional<StoreEstimate>(estimate(EstimatedInput::of(description)))
+    : std::nullopt;
   if (!json_)
   {
-    print(storeText(description, hierarchy) + (far ? trafficText(traffic) : "") +
-      (statistics ? statisticsText(*statistics) : ""));
+    print(storeText(description, hierarchy) + (built ? built->text() : "") +
+      (far ? trafficText(traffic) : "") + (statistics ? statisticsText(*statistics) : ""));
     return {};
   }
   reports.push_back(storeJson(description, hierarchy));
   reports.back()["path"] = path;
+  if (built)
+  {
+    reports.back()["estimate"] = built->json();
+  }
   if (far)
   {
     addTraffic(reports.back()["traffic"], traffic);
@@ -218,9 +241,9 @@ Result<void> InfoCommand::tellStore(const std::string& path, nlohmann::ordered_j
 }
 
 Result<void> InfoCommand::tellSource(
-  const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const
+  const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports)
 {
-  const Result<std::unique_ptr<PointSource>> source = opener.open(path);
+  Result<std::unique_ptr<PointSource>> source = opener.open(path);
   if (!source)
   {
     return source.error();
@@ -246,6 +269,9 @@ Result<void> InfoCommand::tellSource(
   {
     warn(name(), path + ": " + warning);
   }
+  std::vector<std::unique_ptr<PointSource>> only;
+  only.push_back(std::move(*source));
+  const StoreEstimate built = estimate(look_.of(info->points(), only));
   const std::optional<SourceTree> tree = treeOf(path);
   if (tree && !tree->fault.empty())
   {
@@ -253,12 +279,12 @@ Result<void> InfoCommand::tellSource(
   }
   if (!json_)
   {
-    print(sourceText(*info) + (tree ? tree->text : "") + estimateText(*info) +
+    print(sourceText(*info) + (tree ? tree->text : "") + built.text() +
       (statistics ? statisticsText(*statistics) : ""));
     return {};
   }
   reports.push_back(sourceJson(*info));
-  reports.back()["estimate"] = estimateJson(*info);
+  reports.back()["estimate"] = built.json();
   if (tree && tree->fault.empty())
   {
     reports.back()["structure"] = tree->structure;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "Command.h"
+#include "StoreEstimate.h"
 
 #include "pointfront/Points/PointFileOpener.h"
 #include "pointfront/Statistics/PointStatistics.h"
@@ -23,10 +24,12 @@ public:
 
 private:
   Result<void> tell(
-    const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const;
-  Result<void> tellStore(const std::string& path, nlohmann::ordered_json& reports) const;
+    const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports);
+  Result<void> tellStore(const std::string& path, nlohmann::ordered_json& reports);
   Result<void> tellSource(
-    const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports) const;
+    const std::string& path, const PointFileOpener& opener, nlohmann::ordered_json& reports);
+  /// For a store of that input alone.
+  StoreEstimate estimate(const EstimatedInput& input);
 
   std::vector<std::string> inputs_;
   bool json_ = false;
@@ -34,6 +37,8 @@ private:
   bool statistics_ = false;
   std::uint64_t memoryBytes_ = ScanOptions::usualMemoryBytes;
   StatisticsOptions options_;
+  RecordLook look_;
+  StoreEstimate estimates_; ///< for a store of all inputs that are no stores
 };
 
 } // namespace pointfront

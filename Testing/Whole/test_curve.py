@@ -7,11 +7,12 @@ import json
 import pathlib
 import re
 import shlex
+import shutil
 import subprocess
 import sys
 import unittest
 
-from tool import TOOL, SharedStoreTest, ToolTest
+from tool import DATA, TOOL, SharedStoreTest, ToolTest, write_las
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 CURVE = ROOT / "docs/tradeoffs/curve.csv"
@@ -107,23 +108,55 @@ class Told(SharedStoreTest):
         self.assertFalse(told["quality"]["reached"])
         self.assertIn("warning: quality 0.9999", complaint)
 
-    def test_an_estimate_of_a_store_before_it_is_built(self):
-        source = ROOT / "Testing/Data/autzen_stadium.laz"
-        estimate = self.succeed("info", source, "--json").json["estimate"]
-        low, high = estimate["store_bytes"]
-        store = self.folder / "plain.pfront"
-        built = self.succeed("build", source, "-o", store, "--json").json
-        self.assertTrue(low <= store.stat().st_size <= high, estimate)
-        self.assertTrue(
-            estimate["build_memory_bytes"][0] / 2 <= built["peak_rss_bytes"]
-            <= estimate["build_memory_bytes"][1], (estimate, built["peak_rss_bytes"]))
+    def check_estimate(self, estimate, source):
+        """A store, a build and a picture take as much as lies between what was told."""
+        store = self.folder / "estimated.pfront"
+        built = self.succeed("build", source, "-o", store, "--force", "--json").json
+        stats = self.folder / "estimated.json"
+        self.succeed("render", store, "-o", self.folder / "a.png", "--quality", "balanced",
+                     "--stats", stats)
+        told = json.loads(stats.read_text())
         picture = estimate["complete_picture"]
-        told, _ = self.render("--quality", "balanced")
-        self.assertLessEqual(told["bytes_read"], picture["bytes_read"][1])
-        self.assertIn("a store", self.succeed("info", source).out)
+        for name, (low, high), took in (
+                ("store", estimate["store_bytes"], store.stat().st_size),
+                ("memory", estimate["build_memory_bytes"], built["peak_rss_bytes"]),
+                ("bytes read", picture["bytes_read"], told["bytes_read"]),
+                ("a picture's memory", picture["memory_bytes"], told["peak_rss_bytes"])):
+            self.assertTrue(low <= took <= high, f"{source.name}: {name}: {low} {took} {high}")
+
+    def test_an_estimate_of_a_store_before_it_is_built(self):
+        """Large and small, with attributes that vary and with those that have one value."""
+        plain = write_las(self.folder / "plain.las",
+                          [(x / 7, y / 7, (x * y) % 50 / 7, 0, 0, 0) for x in range(300)
+                           for y in range(300)])
+        for source in (ROOT / "Testing/Data/autzen_stadium.laz", plain,
+                       *(DATA / name for name in (
+                           "las/real/autzen_trim.las", "classified/lidarhd_rgb_nir_698k.laz",
+                           "copc/1.2-with-color.copc.laz", "copc/lone-star.copc.laz",
+                           "ply/ripple_bin.ply", "ply/single_point.ply", "pcd/milk_color.pcd",
+                           "text/ripple.txt", "text/1.2-with-color.ptx"))):
+            with self.subTest(source.name):
+                self.check_estimate(self.succeed("info", source, "--json").json["estimate"], source)
+
+    def test_an_estimate_says_no_time_where_none_was_measured(self):
         text = self.folder / "points.xyz"
         text.write_text("1 2 3\n2 3 4\n3 4 5\n")
         self.assertIsNone(self.succeed("info", text, "--json").json["estimate"]["build_seconds"])
+
+    def test_an_estimate_of_several_files_is_of_one_store(self):
+        folder = self.folder / "survey"
+        folder.mkdir()
+        for name in ("las/real/autzen_trim.las", "laz/autzen_trim.laz"):
+            shutil.copy(DATA / name, folder)
+        told = self.succeed("info", folder, "--json").json
+        self.assertEqual(len(told["files"]), 2)
+        self.check_estimate(told["estimate"], folder)
+        self.assertGreater(told["estimate"]["build_seconds"][1],
+                           told["files"][0]["estimate"]["build_seconds"][1])
+        self.assertIn("2 inputs as one\n  a store ", self.succeed("info", folder).out)
+        together = self.succeed("info", folder, "--together", "--json").json
+        self.check_estimate(together["estimate"], folder)
+        self.assertNotIn("estimate", self.succeed("info", self.store, "--json").json)
 
 
 class Page(unittest.TestCase):

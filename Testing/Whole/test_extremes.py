@@ -112,6 +112,14 @@ class Counts(ToolTest):
             self.assertEqual((told["points"], told["bytes"]), (count, 375 + 30 * count))
             self.assertIn(f"{count} (from the header)", self.succeed("info", path).out)
 
+    def test_a_folder_of_ten_billion_points(self):
+        for number in range(10):
+            self.las(f"{number}.las", 10 ** 9, 10 ** 9)
+        told = self.succeed("info", self.folder, "--json").json
+        self.assertEqual(sum(file["points"] for file in told["files"]), 10 ** 10)
+        self.assertGreater(told["estimate"]["store_bytes"][0], 10 ** 10)
+        self.assertIn("of 10000000000 points", self.succeed("info", self.folder, "--together").err)
+
     def test_missing_points_are_counted_to_the_last_one(self):
         path = self.las("lies.las", 2 ** 53 + 1, 1000)
         built = self.succeed("build", path, "-o", self.folder / "x.pfront", "--json")

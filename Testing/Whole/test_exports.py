@@ -190,6 +190,20 @@ class Exports(ToolTest):
                               for store in (together, alone))
             for key in ("points", "precision", "attributes", "bounds"):
                 self.assertEqual(told[key], expected[key], key)
+        for more in ((), ("--tiles",)):
+            said = self.refuse(1, "build", empty, rows, "-o", self.folder / "named.pfront",
+                               "--attributes", "rgb", *more).err
+            self.assertIn("only inputs without points have an attribute 'rgb'", said)
+        self.build(empty, name="empty.pfront")
+        stores = [self.folder / f"{name}.pfront" for name in ("empty", "alone")]
+        self.succeed("build", *stores, "-o", together, "--force")
+        listed = self.folder / "all.pfronts"
+        listed.write_text("empty.pfront\nalone.pfront\n")
+        self.succeed("build", listed, "-o", self.folder / "of-list.pfront")
+        for cloud in (together, listed, self.folder / "of-list.pfront"):
+            told = self.succeed("info", "--together", cloud, "--json").json
+            for key in ("points", "precision", "attributes", "bounds"):
+                self.assertEqual(told[key], expected[key], key)
 
     def test_inputs_without_points_do_not_choose_the_kind_of_gps_times(self):
         """Neither files that have none, nor those whose points all lie outside of the box."""

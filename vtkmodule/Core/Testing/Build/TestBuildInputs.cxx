@@ -194,8 +194,13 @@ TEST(CommonSchema, TakesNoColumnOfASourceWithoutPoints)
   EXPECT_EQ(common->schema[0], sources[1]->description().schema[0]);
   EXPECT_TRUE(common->warnings.empty());
   EXPECT_FALSE(commonSchema(sources, std::nullopt, SchemaOf::AllSources)) << "two shapes";
-  const auto named = commonSchema(sources, std::vector<std::string>{ "rgb" });
-  EXPECT_FALSE(named) << "of what is named, all have a say";
+  const auto named = commonSchema(sources, std::vector<std::string>{ "intensity" });
+  ASSERT_TRUE(named) << named.error().what;
+  EXPECT_EQ(named->schema[0], sources[1]->description().schema[0]);
+  const auto nobodys = commonSchema(sources, std::vector<std::string>{ "rgb" });
+  ASSERT_FALSE(nobodys) << "a column of zeros that no point has";
+  EXPECT_NE(nobodys.error().what.find("'rgb'"), std::string::npos);
+  EXPECT_NE(nobodys.error().what.find("without points"), std::string::npos);
   sources.pop_back();
   EXPECT_EQ(commonSchema(sources, std::nullopt)->schema.size(), 2u);
 }

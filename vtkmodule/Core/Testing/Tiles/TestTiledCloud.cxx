@@ -358,6 +358,38 @@ TEST_F(Tiled, SubsetsAndRepresentativesDoNotMix)
   EXPECT_NE(cloud.error().what.find("b.pfront"), std::string::npos) << cloud.error().what;
 }
 
+TEST_F(Tiled, StoresWithoutPointsHaveNoSay)
+{
+  store("a.pfront", tile(0, 0.0));
+  AttributeSchema schema;
+  schema.add({ "rgb", ScalarType::UInt16, 3 });
+  schema.add({ "intensity", ScalarType::Float64, 2 });
+  auto empty = std::make_unique<CloudSource>(
+    "empty", schema, QuantisationGrid{ glm::dvec3(0.0007), glm::dvec3(0.0003) });
+  empty->editDescription().crsWkt = "LOCAL_CS[\"other\"]";
+  options_.refinement = Refinement::Replace;
+  store("b.pfront", std::move(empty));
+  const auto alone = opened(at("a.pfront"));
+  for (const char* const lines : { "a.pfront\nb.pfront\n", "b.pfront\na.pfront\n" })
+  {
+    const auto cloud = opened(list(lines));
+    ASSERT_TRUE(cloud);
+    const StoreDescription& whole = cloud->description();
+    EXPECT_EQ(whole.schema, alone->description().schema) << "all points would be black";
+    EXPECT_EQ(whole.grid, alone->description().grid);
+    EXPECT_EQ(whole.refinement, Refinement::Add);
+    EXPECT_TRUE(whole.crsWkt.empty());
+    EXPECT_TRUE(whole.warnings.empty()) << whole.warnings.front();
+    EXPECT_EQ(whole.layers.size(), alone->description().layers.size());
+    EXPECT_EQ(whole.fileBytes, fs::file_size(at("a.pfront")) + fs::file_size(at("b.pfront")));
+    EXPECT_EQ(points(*cloud), expected_);
+    EXPECT_TRUE(cloud->verify()->ok);
+  }
+  const auto nobody = opened(list("b.pfront\n"));
+  ASSERT_TRUE(nobody);
+  EXPECT_EQ(nobody->description().schema, opened(at("b.pfront"))->description().schema);
+}
+
 TEST_F(Tiled, ListsThatCannotBeUsedSayWhy)
 {
   store("a.pfront", tile(0, 0.0));

@@ -132,7 +132,16 @@ Result<AttributeSchema> unionOf(
   return schema;
 }
 
-Result<AttributeSchema> selected(const AttributeSchema& all, const std::vector<std::string>& wanted)
+/// Inputs that cannot give an attribute: a name that only those without points know is not misspelt.
+std::string whoLacks(const std::string& name, const Sources& sources)
+{
+  const bool known = std::any_of(sources.begin(), sources.end(),
+    [&](const auto& source) { return source->description().schema.find(name).has_value(); });
+  return known ? "only inputs without points have an attribute " : "no input has an attribute ";
+}
+
+Result<AttributeSchema> selected(
+  const AttributeSchema& all, const std::vector<std::string>& wanted, const Sources& sources)
 {
   std::vector<bool> keep(all.size(), false);
   for (const std::string& name : wanted)
@@ -141,7 +150,7 @@ Result<AttributeSchema> selected(const AttributeSchema& all, const std::vector<s
     if (!column)
     {
       return makeError(Error::Kind::BadArgument,
-        "no input has an attribute " + quoted(name) + "; there are: " + listOf(all) +
+        whoLacks(name, sources) + quoted(name) + "; there are: " + listOf(all) +
           didYouMean(name, attributeNames(all)));
     }
     keep[*column] = true;
@@ -222,12 +231,12 @@ Result<CommonSchema> commonSchema(
   const Sources& sources, const std::optional<std::vector<std::string>>& wanted, SchemaOf from)
 {
   CommonSchema common;
-  const bool filled = from == SchemaOf::SourcesWithPoints && !wanted;
+  const bool filled = from == SchemaOf::SourcesWithPoints;
   Result<AttributeSchema> schema =
     unionOf(filled ? sourcesWithPoints(sources) : allSources(sources), common.warnings);
   if (schema && wanted)
   {
-    schema = selected(*schema, *wanted);
+    schema = selected(*schema, *wanted, sources);
   }
   if (!schema)
   {

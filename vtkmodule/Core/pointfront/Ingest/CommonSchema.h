@@ -32,15 +32,15 @@ struct CommonSchema
   std::vector<std::string> warnings;
 };
 
-/// Which sources give attributes that nobody named.
+/// Which sources give attributes.
 enum class SchemaOf
 {
   SourcesWithPoints, ///< an empty file chooses nothing for others' points; all if none has points
   AllSources ///< those without points stand for some that have points elsewhere
 };
 
-/// `wanted`: names, or nothing for all. Error BadArgument for a name that no source has, with those
-/// that there are, and for columns of one name with different numbers of components.
+/// `wanted`: names, or nothing for all. Error BadArgument for a name that none of these sources has,
+/// with those that there are, and for columns of one name with different numbers of components.
 Result<CommonSchema> commonSchema(const std::vector<std::unique_ptr<PointSource>>& sources,
   const std::optional<std::vector<std::string>>& wanted,
   SchemaOf from = SchemaOf::SourcesWithPoints);

@@ -268,7 +268,8 @@ Result<void> ListedTiles::describe(
   {
     pointers.push_back(&one);
   }
-  Result<TileDescription> described = TileDescription::of(path_, pointers, std::move(warnings));
+  Result<TileDescription> described =
+    TileDescription::ofStores(path_, pointers, std::move(warnings));
   if (!described)
   {
     return described.error();
@@ -375,7 +376,7 @@ Result<TileDescription::Part> ListedTiles::partOf(std::size_t tile, const Stored
     return listed.unlike("it has " + std::to_string(cloud.hierarchy()->nodeCount()) +
       " nodes, more than a tile of so many points should have");
   }
-  Result<TileDescription> described = TileDescription::of(path_, { &whole_, &own }, {});
+  Result<TileDescription> described = TileDescription::ofStores(path_, { &whole_, &own }, {});
   if (!described)
   {
     return described.error();

@@ -7,9 +7,8 @@
 #include "pointfront/Store/ColumnStatistics.h"
 #include "pointfront/Store/HeldColours.h"
 
-#include <glm/geometric.hpp>
-
 #include <algorithm>
+#include <iterator>
 #include <map>
 #include <numeric>
 #include <utility>
@@ -28,11 +27,6 @@ struct DescribedTiles
   const StoreDescription* operator->() const { return is; }
 };
 using Tiles = std::vector<DescribedTiles>;
-
-double diagonalOf(const Bounds& bounds)
-{
-  return bounds.empty() ? 0.0 : glm::length(bounds.size());
-}
 
 /// A tile as a source for commonSchema().
 class DescribedTile final : public PointSource
@@ -357,6 +351,13 @@ Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
   }
   return result;
 }
+
+/// What a store without points is in the whole: none of its nodes is ever asked for.
+TileDescription::Part partWithoutPoints(const StoreDescription& tile, const StoreDescription& whole)
+{
+  return { TileColumns(tile.schema, std::vector<ColumnMapping>(whole.schema.size())),
+    TilePlacing(tile.grid, whole.grid), std::vector<std::uint16_t>(tile.layers.size()) };
+}
 } // namespace
 
 std::string projectionOf(const StoreDescription& store)
@@ -372,39 +373,6 @@ std::string projectionOf(const StoreDescription& store)
   return text;
 }
 
-void AlikeTiles::begin(const StoreDescription& first)
-{
-  together = first;
-  together.wholeCount = first.pointCount + first.missingPoints();
-  count = 1;
-  lengths = diagonalOf(first.bounds);
-}
-
-void AlikeTiles::add(const CollectedTile& tile)
-{
-  ++count;
-  lengths += diagonalOf(tile.bounds);
-  together.fileBytes += tile.fileBytes;
-  together.pointCount += tile.pointCount;
-  together.wholeCount += std::max(tile.pointCount, tile.wholeCount);
-  together.bounds.add(tile.bounds);
-  together.levels = std::max(together.levels, tile.levels);
-  auto ends = tile.ranges.begin();
-  for (ColumnRange& range : together.ranges)
-  {
-    for (std::array<double, 2>& all : range.components)
-    {
-      all = { std::min(all[0], (*ends)[0]), std::max(all[1], (*ends)[1]) };
-      ++ends;
-    }
-  }
-  for (std::size_t layer = 0; layer < tile.layers.size(); ++layer)
-  {
-    together.layers[layer].pointCount += tile.layers[layer].first;
-    together.layers[layer].nodeCount += tile.layers[layer].second;
-  }
-}
-
 Result<TileDescription> TileDescription::of(const std::string& path,
   const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings)
 {
@@ -416,6 +384,37 @@ Result<TileDescription> TileDescription::of(const std::string& path,
     grids.push_back(tile->grid);
   }
   return describedOf(path, described, grids, std::move(warnings));
+}
+
+Result<TileDescription> TileDescription::ofStores(const std::string& path,
+  const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings)
+{
+  std::vector<const StoreDescription*> filled;
+  std::copy_if(tiles.begin(), tiles.end(), std::back_inserter(filled),
+    [](const StoreDescription* tile) { return tile->pointCount > 0; });
+  if (filled.empty() || filled.size() == tiles.size())
+  {
+    return of(path, tiles, std::move(warnings));
+  }
+  Result<TileDescription> described = of(path, filled, std::move(warnings));
+  if (!described)
+  {
+    return described;
+  }
+  TileDescription all;
+  all.whole = std::move(described->whole);
+  auto next = std::make_move_iterator(described->parts.begin());
+  for (const StoreDescription* const tile : tiles)
+  {
+    if (tile->pointCount > 0)
+    {
+      all.parts.push_back(*next++);
+      continue;
+    }
+    all.whole.fileBytes += tile->fileBytes;
+    all.parts.push_back(partWithoutPoints(*tile, all.whole));
+  }
+  return all;
 }
 
 Result<TileDescription> TileDescription::of(const std::string& path,

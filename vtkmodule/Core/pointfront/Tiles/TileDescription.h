@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfront/Tiles/CollectedTile.h"
+#include "pointfront/Tiles/AlikeTiles.h"
 #include "pointfront/Tiles/TileColumns.h"
 #include "pointfront/Tiles/TilePlacing.h"
 
@@ -11,18 +11,6 @@
 
 namespace pointfront
 {
-
-/// Stores that differ in no more than counts, bounds, ranges and grids, described as one: counts
-/// added up, bounds and ranges of all of them. Its path is that of the first.
-struct AlikeTiles
-{
-  StoreDescription together;
-  std::size_t count = 0;
-  double lengths = 0.0; ///< diagonals of their boxes, added up
-
-  void begin(const StoreDescription& first);
-  void add(const CollectedTile& tile); ///< one of the same kind
-};
 
 /// Describes several stores as one cloud, and the change that each of them needs for that. From
 /// their descriptions alone; nothing is read.
@@ -44,7 +32,11 @@ struct TileDescription
   ///         with different numbers of components.
   static Result<TileDescription> of(const std::string& path,
     const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings);
-  /// The same of many tiles of few kinds, by the kinds in the order in which tiles have them first;
+  /// The same, where those without points have no say: their attributes, steps, systems, layers and
+  /// refinement are nobody's, unless no store has points.
+  static Result<TileDescription> ofStores(const std::string& path,
+    const std::vector<const StoreDescription*>& tiles, std::vector<std::string> warnings);
+  /// As of(), of many tiles of few kinds, by the kinds in the order in which tiles have them first;
   /// `grids` are those of all tiles. A part is that of the first tile of its kind: others have
   /// placings of their own.
   static Result<TileDescription> of(const std::string& path, const std::vector<AlikeTiles>& kinds,

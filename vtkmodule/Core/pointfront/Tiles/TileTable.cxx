@@ -73,13 +73,15 @@ TileTable::TileTable(std::vector<Tile> tiles, std::uint32_t headPoints)
   , headPoints_(headPoints)
 {
   assert(!tiles_.empty());
-  refinement_ = tiles_.front().table->refinement();
+  const auto hasNodes = [](const Tile& tile) { return tile.table->nodeCount() > 0; };
+  const auto filled = std::find_if(tiles_.begin(), tiles_.end(), hasNodes);
+  refinement_ = (filled == tiles_.end() ? tiles_.front() : *filled).table->refinement();
   NodeIndex nodes = 0;
   std::uint64_t points = 0;
   std::vector<MissingRows*> waiting;
   for (const Tile& tile : tiles_)
   {
-    assert(tile.table->refinement() == refinement_);
+    assert(!hasNodes(tile) || tile.table->refinement() == refinement_);
     firstNodes_.push_back(nodes);
     firstPoints_.push_back(points);
     cut_.push_back(rootsToCut(*tile.table));

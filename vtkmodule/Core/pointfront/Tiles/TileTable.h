@@ -29,8 +29,8 @@ public:
     std::uint64_t points = 0; ///< own points of all its nodes
   };
 
-  /// All of one refinement; together, with a node more for each root, less than noNode nodes.
-  /// Roots with twice `headPoints` points and more are cut, those of Refinement::Add.
+  /// All that have nodes of one refinement; together, with a node more for each root, less than
+  /// noNode nodes. Roots with twice `headPoints` points and more are cut, those of Refinement::Add.
   explicit TileTable(
     std::vector<Tile> tiles, std::uint32_t headPoints = std::numeric_limits<std::uint32_t>::max());
   ~TileTable() override;

@@ -84,7 +84,8 @@ Result<std::shared_ptr<const StoredCloud>> TiledCloud::make(const std::string& p
   {
     descriptions.push_back(&tile->description());
   }
-  Result<TileDescription> described = TileDescription::of(path, descriptions, std::move(warnings));
+  Result<TileDescription> described =
+    TileDescription::ofStores(path, descriptions, std::move(warnings));
   if (!described)
   {
     return described.error();

@@ -79,13 +79,14 @@ void BenchCommand::declare(CLI::App& program)
     ->transform(wholeNumber())
     ->check(CLI::Range(1, 1000000))
     ->type_name("N");
-  app_->add_flag("--interactive", interactive_,
+  CLI::Option* interactive = app_->add_flag("--interactive", interactive_,
     "While the camera moves the fronts hold the frame time of a moving view");
   app_
     ->add_option("--frame-ms", drawing_.frameMs,
       "--interactive: time that a frame may take (66.7, VTK's for a moving view)")
     ->check(numberBetween(1.0, 10000.0))
-    ->type_name("MS");
+    ->type_name("MS")
+    ->needs(interactive);
   app_
     ->add_option("--grow-ms", drawing_.growthMs,
       "Time in which detail that comes or goes grows or shrinks; 0: it is there at once (250)")

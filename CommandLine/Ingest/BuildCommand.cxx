@@ -113,6 +113,10 @@ Result<OpenedInputs> BuildCommand::openSources() const
   {
     return inputs;
   }
+  if (Result<void> fits = sourceChoice_.checkAgainst(inputs->sources); !fits)
+  {
+    return fits.error();
+  }
   if (Result<void> some = options_.box ? options_.box->keepInside(inputs->sources) : Result<void>();
       !some)
   {

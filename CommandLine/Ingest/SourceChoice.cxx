@@ -4,6 +4,8 @@
 #include "KnownWords.h"
 #include "Values.h"
 
+#include <algorithm>
+
 namespace pointfront
 {
 
@@ -66,6 +68,28 @@ ColourDepth SourceChoice::colourDepth() const
   return colourDepth_ == "8" ? ColourDepth::Eight
     : colourDepth_ == "16"   ? ColourDepth::Sixteen
                              : ColourDepth::ByFile;
+}
+
+Result<void> SourceChoice::checkAgainst(
+  const std::vector<std::unique_ptr<PointSource>>& inputs) const
+{
+  const bool text = std::any_of(inputs.begin(), inputs.end(),
+    [](const auto& input)
+    {
+      const std::string& format = input->description().format;
+      return format == "text" || format == "PTX";
+    });
+  const char* const asked = !columns_.empty() ? "--columns"
+    : text_.decimalPoint != '\0'              ? "--decimal"
+    : text_.separator != '\0'                 ? "--separator"
+    : text_.skip > 0                          ? "--skip"
+                                              : nullptr;
+  if (asked != nullptr && !text && !inputs.empty())
+  {
+    return makeError(Error::Kind::BadArgument,
+      std::string(asked) + ": is for text files, and none of the inputs is one; leave it out");
+  }
+  return {};
 }
 
 SourceOptions SourceChoice::options(const BuildOptions& build) const

@@ -19,6 +19,8 @@ public:
   void declare(CLI::App& app);
   /// How colours of 16 bits are taken.
   ColourDepth colourDepth() const;
+  /// Error BadArgument: an option for text files, of which there is none among the inputs.
+  Result<void> checkAgainst(const std::vector<std::unique_ptr<PointSource>>& inputs) const;
   /// The options of all formats; threads and temporary folder are those of the build.
   SourceOptions options(const BuildOptions& build) const;
 

@@ -1,6 +1,7 @@
 #include "MappedStores.h"
 
 #include "Frustum.h"
+#include "LightDoubt.h"
 #include "MapperColour.h"
 #include "MapperSheet.h"
 #include "ShownClasses.h"
@@ -172,6 +173,7 @@ Result<void> MappedStores::show(const DrawingOptions& options, int backend, vtkR
   {
     return noClassTrees(stores.front()->description().path);
   }
+  lightDoubt_ = doubtOfLight(options.style, stores);
   const std::string attribute = options.colourBy.empty()
     ? defaultColourAttribute(stores.front()->description())
     : options.colourBy;
@@ -240,6 +242,10 @@ std::vector<std::string> MappedStores::warnings() const
     {
       all.push_back(description.path + ": " + warning);
     }
+  }
+  if (!lightDoubt_.empty())
+  {
+    all.push_back(lightDoubt_);
   }
   return all;
 }

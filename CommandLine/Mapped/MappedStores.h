@@ -87,6 +87,7 @@ private:
   ErrorListener errors_;
   bool hidden_ = false; ///< some classes are, by their trees
   Bounds bounds_;
+  std::string lightDoubt_;
   std::vector<std::unique_ptr<MappedStore>> stores_;
 };
 

@@ -1,5 +1,6 @@
 #include "DrawnStores.h"
 
+#include "LightDoubt.h"
 #include "ShownClasses.h"
 
 #include "pointfront/Detail/DetailLevel.h"
@@ -47,6 +48,7 @@ Result<void> DrawnStores::resolve(StyleSheet sheet)
   {
     clouds.push_back(store->cloud());
   }
+  lightDoubt_ = doubtOfLight(sheet, clouds);
   const AttributeRanges ranges(clouds);
   if (!sheet.standard.colour) // the first store decides for all
   {
@@ -99,6 +101,10 @@ std::vector<std::string> DrawnStores::warnings() const
     {
       all.push_back(description.path + ": " + warning);
     }
+  }
+  if (!lightDoubt_.empty())
+  {
+    all.push_back(lightDoubt_);
   }
   return all;
 }

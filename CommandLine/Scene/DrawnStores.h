@@ -73,6 +73,7 @@ private:
   std::vector<std::unique_ptr<DrawnStore>> stores_;
   Bounds bounds_;
   std::uint64_t allPoints_ = 0; ///< number of points in all stores
+  std::string lightDoubt_;
 };
 
 } // namespace pointfront

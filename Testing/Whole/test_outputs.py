@@ -117,11 +117,28 @@ class Outputs(ToolTest):
         self.assertEqual(self.entries(), names)
 
     def test_an_option_that_would_do_nothing_is_refused(self):
-        store = self.build(self.copy())
+        las = self.copy()
+        store = self.build(las)
+        for option, value in (("--columns", "x,y,z"), ("--decimal", "comma"),
+                              ("--separator", "tab"), ("--skip", 3)):
+            said = self.refuse(1, "build", las, "-o", self.folder / "x.pfront", option, value).err
+            self.assertIn(f"{option}: is for text files", said)
+        said = self.refuse(2, "bench", store, "--stats", self.folder / "s.json",
+                           "--frame-ms", 10).err
+        self.assertIn("--interactive", said)
+        for file in (las, store):
+            self.assertIn("is no collection", self.refuse(1, "info", file, "--epoch", "a").err)
         for kind in ("csv", "las", "ply"):
             out = self.folder / f"d.{kind}"
             self.assertIn("PCD", self.refuse(2, "export", store, "-o", out, "--double").err)
         self.assertIn("--stats", self.refuse(2, "info", store, "--memory", "10M").err)
+
+    def test_light_that_nothing_can_have_is_told(self):
+        store = self.build(self.copy())
+        picture = ("-o", self.folder / "p.png", "--size", "40x40", "--lit")
+        self.assertIn("no point has a normal", self.succeed("render", store, *picture).err)
+        said = self.succeed("render", store, *picture, "--technique", "spheres").err
+        self.assertNotIn("normal", said)
 
     def test_a_file_with_its_index_beside_it(self):
         las = self.copy()

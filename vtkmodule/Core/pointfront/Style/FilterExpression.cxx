@@ -3,6 +3,7 @@
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ComponentName.h"
+#include "pointfront/Style/WrittenNumber.h"
 
 #include <algorithm>
 #include <charconv>
@@ -395,6 +396,7 @@ Result<PointFilter> FilterExpression::resolve(
       condition.axis = axis;
       condition.axisScale = store.grid.scale[axis];
       condition.axisOffset = store.grid.offset[axis];
+      condition.heights == nullptr ? takeAsWritten(condition, nullptr) : void();
     }
     else
     {
@@ -407,6 +409,7 @@ Result<PointFilter> FilterExpression::resolve(
       }
       condition.column = found->column;
       condition.component = found->component.value_or(0);
+      takeAsWritten(condition, &attribute);
     }
     filter.conditions.push_back(std::move(condition));
   }

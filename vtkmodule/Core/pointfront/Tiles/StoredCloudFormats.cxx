@@ -128,7 +128,8 @@ Result<std::shared_ptr<const StoredCloud>> StoredCloudFormats::openBy(
     held = std::move(*source);
   }
   const std::shared_ptr<const StoredCloudFormat> format = formatOf(path);
-  if (!format && asked.epoch && accepts(asked.file))
+  if (std::error_code failure; !format && asked.epoch &&
+      (accepts(asked.file) || std::filesystem::exists(asked.file, failure)))
   {
     return withoutEpochs(asked.file, *asked.epoch);
   }

@@ -38,6 +38,27 @@ def random_ends(rng, values):
     return ends
 
 
+def is_float(name, columns):
+    return name in columns and columns[name].dtype == numpy.float32
+
+
+def as_export(number, name, columns):
+    """The text that an export writes for such a value."""
+    return str(numpy.float32(number)) if is_float(name, columns) else f"{number:.12g}"
+
+
+def meant(text, name, values, columns):
+    """The value that an export writes so, or else the number itself."""
+    number = float(text)
+    if is_float(name, columns):
+        nearest = numpy.float32(number)
+        return float(nearest) if float(str(nearest)) == number else number
+    if name in (*"xyz", "level") and numpy.isfinite(number):
+        nearest = float(values[numpy.argmin(abs(values - number))])
+        return nearest if abs(nearest - number) <= 1e-15 * abs(values).max() else number
+    return number
+
+
 def random_condition(rng, positions, columns):
     """name as written, kind, numbers"""
     name = rng.choice(sorted(NAMES))
@@ -55,7 +76,9 @@ def random_condition(rng, positions, columns):
             kind, numbers = "==", [low]  # an empty range is refused
     else:
         numbers = [rng.choice((low, high))]
-    return [name, rng.choice(NAMES[name]), kind, [repr(number) for number in numbers]]
+    short = chance(rng, 0.5)
+    return [name, rng.choice(NAMES[name]), kind,
+            [as_export(number, name, columns) if short else repr(number) for number in numbers]]
 
 
 def condition_text(condition):
@@ -72,7 +95,7 @@ def condition_text(condition):
 def condition_mask(condition, positions, columns):
     name, _, kind, texts = condition
     values = values_of(positions, columns, name)
-    numbers = [float(text) for text in texts]
+    numbers = [meant(text, name, values, columns) for text in texts]
     if "set" in kind:
         inside = numpy.isin(values, numbers)
     elif len(numbers) == 2:

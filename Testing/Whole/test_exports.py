@@ -192,7 +192,7 @@ class Exports(ToolTest):
                 self.assertEqual(told[key], expected[key], key)
         for more in ((), ("--tiles",)):
             said = self.refuse(1, "build", empty, rows, "-o", self.folder / "named.pfront",
-                               "--attributes", "rgb", *more).err
+                               "--attributes", "rgb", "--assume-crs", "EPSG:25832", *more).err
             self.assertIn("only inputs without points have an attribute 'rgb'", said)
         self.build(empty, name="empty.pfront")
         stores = [self.folder / f"{name}.pfront" for name in ("empty", "alone")]

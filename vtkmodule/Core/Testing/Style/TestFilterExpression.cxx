@@ -223,13 +223,13 @@ TEST(FilterExpression, ANumberIsTheValueThatIsWrittenSo)
   const auto range = [&store](const char* text)
   { return FilterExpression::parse(text)->resolve(store)->conditions[0].range; };
   using Range = std::array<ConditionNumber, 2>;
-  EXPECT_EQ(range("angle == 0.1")[0], ConditionNumber(0.1f));
-  EXPECT_EQ(range("angle == 0.1000000001")[0], ConditionNumber(0.1000000001));
+  EXPECT_EQ(range("angle >= 0.1")[0], ConditionNumber(0.1f));
+  EXPECT_EQ(range("angle >= 0.1000000001")[0], ConditionNumber(0.1000000001));
   ASSERT_NE(9900 * 0.0001, 0.99);
   EXPECT_EQ(range("slope > 0.99")[0], ConditionNumber(9900 * 0.0001));
   EXPECT_EQ(range("slope in [-0.99, 0.99005]"),
     (Range{ ConditionNumber(-9900 * 0.0001), ConditionNumber(0.99005) }));
-  EXPECT_EQ(range("x == 400000.123")[0], ConditionNumber(123 * 0.001 + 400000.0));
+  EXPECT_EQ(range("x >= 400000.123")[0], ConditionNumber(123 * 0.001 + 400000.0));
   EXPECT_EQ(range("angle in (-inf, inf)"), (Range{ -infinity, infinity }));
   const auto set = FilterExpression::parse("slope in {0.99, 0.5}")->resolve(store);
   EXPECT_EQ(set->conditions[0].values.back(), ConditionNumber(9900 * 0.0001));

@@ -132,7 +132,8 @@ Result<AttributeSchema> unionOf(
   return schema;
 }
 
-/// Inputs that cannot give an attribute: a name that only those without points know is not misspelt.
+/// Inputs that cannot give an attribute: a name that only those without points know is not
+/// misspelt.
 std::string whoLacks(const std::string& name, const Sources& sources)
 {
   const bool known = std::any_of(sources.begin(), sources.end(),

@@ -39,8 +39,9 @@ enum class SchemaOf
   AllSources ///< those without points stand for some that have points elsewhere
 };
 
-/// `wanted`: names, or nothing for all. Error BadArgument for a name that none of these sources has,
-/// with those that there are, and for columns of one name with different numbers of components.
+/// `wanted`: names, or nothing for all. Error BadArgument for a name that none of these sources
+/// has, with those that there are, and for columns of one name with different numbers of
+/// components.
 Result<CommonSchema> commonSchema(const std::vector<std::unique_ptr<PointSource>>& sources,
   const std::optional<std::vector<std::string>>& wanted,
   SchemaOf from = SchemaOf::SourcesWithPoints);

@@ -3,7 +3,6 @@
 #include "pointfront/Base/LetterCase.h"
 #include "pointfront/Points/AttributeNames.h"
 #include "pointfront/Style/ComponentName.h"
-#include "pointfront/Style/WrittenNumber.h"
 
 #include <algorithm>
 #include <charconv>
@@ -396,7 +395,7 @@ Result<PointFilter> FilterExpression::resolve(
       condition.axis = axis;
       condition.axisScale = store.grid.scale[axis];
       condition.axisOffset = store.grid.offset[axis];
-      condition.heights == nullptr ? takeAsWritten(condition, nullptr) : void();
+      condition.heights == nullptr ? condition.takeAsWritten(nullptr) : void();
     }
     else
     {
@@ -409,7 +408,7 @@ Result<PointFilter> FilterExpression::resolve(
       }
       condition.column = found->column;
       condition.component = found->component.value_or(0);
-      takeAsWritten(condition, &attribute);
+      condition.takeAsWritten(&attribute);
     }
     filter.conditions.push_back(std::move(condition));
   }

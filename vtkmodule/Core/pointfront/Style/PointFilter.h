@@ -40,6 +40,10 @@ struct AttributeCondition
   std::vector<ConditionNumber> values; ///< ascending; not empty: one of these, whatever the range
   bool inverted = false; ///< values pass that would not, and the other way round; NaN never does
 
+  /// Its numbers become the doubles that points are compared as, where they are written as info
+  /// and exports write a value: the double of 9983 steps of 0.0001 is not that of 0.9983, and that
+  /// of the float 8.604 is not that of 8.604. All others stay. `attribute`: null for a coordinate.
+  void takeAsWritten(const Attribute* attribute);
   bool passes(double value) const;
   /// False when no value passes whose double lies in [low, high]: a node of that range need not be
   /// read. True where doubles cannot tell.

@@ -81,4 +81,18 @@ std::size_t takeCount(ByteReader& in, std::size_t least);
 void putBounds(ByteWriter& out, const Bounds& bounds);
 Bounds takeBounds(ByteReader& in);
 
+double diagonalOf(const Bounds& bounds);
+
+/// Stores that differ in no more than counts, bounds, ranges and grids, described as one: counts
+/// added up, bounds and ranges of all of them. Its path is that of the first.
+struct AlikeTiles
+{
+  StoreDescription together;
+  std::size_t count = 0;
+  double lengths = 0.0; ///< diagonals of their boxes, added up
+
+  void begin(const StoreDescription& first);
+  void add(const CollectedTile& tile); ///< one of the same kind
+};
+
 } // namespace pointfront

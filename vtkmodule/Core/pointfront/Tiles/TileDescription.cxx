@@ -352,7 +352,7 @@ Result<TileDescription> describedOf(const std::string& path, const Tiles& tiles,
   return result;
 }
 
-/// What a store without points is in the whole: none of its nodes is ever asked for.
+/// The part of a store without points: none of its nodes is ever asked for.
 TileDescription::Part partWithoutPoints(const StoreDescription& tile, const StoreDescription& whole)
 {
   return { TileColumns(tile.schema, std::vector<ColumnMapping>(whole.schema.size())),

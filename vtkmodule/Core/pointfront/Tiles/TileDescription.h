@@ -1,7 +1,7 @@
 #pragma once
 
 #include "pointfront/Store/StoredCloud.h"
-#include "pointfront/Tiles/AlikeTiles.h"
+#include "pointfront/Tiles/CollectedTile.h"
 #include "pointfront/Tiles/TileColumns.h"
 #include "pointfront/Tiles/TilePlacing.h"
 

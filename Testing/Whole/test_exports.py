@@ -193,7 +193,8 @@ class Exports(ToolTest):
         for more in ((), ("--tiles",)):
             said = self.refuse(1, "build", empty, rows, "-o", self.folder / "named.pfront",
                                "--attributes", "rgb", "--assume-crs", "EPSG:25832", *more).err
-            self.assertIn("only inputs without points have an attribute 'rgb'", said)
+            self.assertIn("has an attribute 'rgb'" if more
+                          else "only inputs without points have an attribute 'rgb'", said)
         self.build(empty, name="empty.pfront")
         stores = [self.folder / f"{name}.pfront" for name in ("empty", "alone")]
         self.succeed("build", *stores, "-o", together, "--force")

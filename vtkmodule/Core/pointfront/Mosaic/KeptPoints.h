@@ -15,7 +15,7 @@ namespace pointfront
 /// Writes the points of an input to a file while they are read once, so that tiles need not decode
 /// the input again. The file is a convenience: who finds none, or another one, reads the input.
 /// Size     coded as a store's blocks are: at most 12 bytes a point if all coordinates are steps of
-///          32 bits of the input's grid, else 24, and its attributes; half of that in usual clouds.
+///          32 bits of the input's grid, else 24, and its attributes; usually a third of that.
 /// Exact    what is read back has the bits of what was added.
 /// Threads  add() from any.
 class PointKeeper

@@ -9,6 +9,7 @@ import sys
 
 import doc_rules
 import include_rules
+import paper_rules
 import text_rules
 import version_rules
 from source_tree import read_tree
@@ -30,6 +31,7 @@ RULES = {
     "Links": text_rules.links,
     "Anchors": doc_rules.anchors,
     "LinkedNames": doc_rules.linked_names,
+    "Papers": paper_rules.papers,
     "TableCommands": doc_rules.table_commands,
     "OldTables": doc_rules.old_tables,
     "Includes": include_rules.includes,

@@ -50,6 +50,20 @@ class RulesTest(unittest.TestCase):
              ("Rendering/OpenGL2/glsl/a.glsl", 151)],
         )
 
+    def test_papers(self):
+        page = ["* *Code*: `Core/A`, `IO/A.cxx`, `Core`, `A::run`,", "  `B/Gone`, `A::gone`", "",
+                "`Not/Asked`", "* *Tests*: `Suite.Draws`, `Suite.*`, `Draws...`, `Whole.TwoWords`",
+                "  `Suite.Draw`, `Gone.*`, `Whole.Gone`"]
+        tree = {
+            "docs/papers.md": "\n".join(page) + "\n",
+            "vtkmodule/Core/A.h": "struct A { void run(); };\n",
+            "IO/A.cxx": "int a;\n",
+            "IO/Testing/TestA.cxx": "TEST_F(Suite, DrawsAll)\nTEST(Suite, Draws)\n",
+            "Testing/Whole/test_two_words.py": "pass\n",
+        }
+        self.assertEqual(self.faults("Papers", tree),
+                         [("docs/papers.md", 2)] * 2 + [("docs/papers.md", 6)] * 3)
+
     def test_one_version(self):
         tree = {
             "CMakeLists.txt": "project(PointFront VERSION 3.2.1 LANGUAGES CXX)\n",

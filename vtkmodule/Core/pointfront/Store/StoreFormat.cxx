@@ -79,7 +79,7 @@ Result<void> checkHeader(
   {
     return makeError(Error::Kind::Truncated,
       "'" + path + "' has " + std::to_string(fileBytes) + " bytes of " +
-        std::to_string(header.fileBytes) + "; copy the file again or build the store again");
+        std::to_string(header.fileBytes) + "; copy the file again or " + buildAgain);
   }
   if (fileBytes > header.fileBytes)
   {
@@ -117,7 +117,7 @@ Error corruptStore(const std::string& path, std::uint64_t offset, const std::str
 {
   return makeError(Error::Kind::Corrupt,
     "'" + path + "' is damaged: " + what + " (byte " + std::to_string(offset) +
-      "); copy the file again or build the store again");
+      "); copy the file again or " + buildAgain);
 }
 
 std::vector<std::byte> encodeHeader(const StoreHeader& header)
@@ -164,7 +164,7 @@ Result<StoreHeader> decodeHeader(
   {
     return makeError(Error::Kind::Truncated,
       "'" + path + "' has " + std::to_string(size) + " bytes, less than a store's header of " +
-        std::to_string(storeHeaderBytes) + "; copy the file again or build the store again");
+        std::to_string(storeHeaderBytes) + "; copy the file again or " + buildAgain);
   }
   ByteReader in(data + storeMagic.size(), storeHeaderBytes - storeMagic.size());
   StoreHeader header;

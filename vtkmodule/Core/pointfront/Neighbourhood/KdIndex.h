@@ -5,8 +5,9 @@
 namespace pointfront
 {
 
-/// An exact search by a kd-tree over two or three axes.
-/// Memory   28 bytes a place.
+/// An exact search by a kd-tree over two or three axes. Each node has the box of its places: a
+/// search from far away, over water say, leaves out all that only a plane of the tree would let in.
+/// Memory   16 bytes a place, up to 24.
 /// Threads  immutable; the set must live as long as the index.
 class KdIndex final : public NeighbourIndex
 {
@@ -18,18 +19,20 @@ public:
 private:
   struct Node
   {
-    double cut = 0.0;
-    std::int32_t axis = -1; ///< -1: a leaf
-    std::uint32_t above = 0; ///< child beyond the cut; the one below follows its parent
-    std::uint32_t begin = 0; ///< first of a leaf
+    // From the origin, rounded outwards, so that no place lies nearer than its box.
+    glm::vec3 low;
+    glm::vec3 high;
+    std::uint32_t above = 0; ///< second child, 0: a leaf; the first follows its parent
+    std::uint32_t begin = 0; ///< first place of a leaf
     std::uint32_t end = 0;
   };
   std::uint32_t divide(std::uint32_t begin, std::uint32_t end);
-  void visit(
-    std::uint32_t node, const glm::dvec3& from, glm::dvec3& beyond, NeighbourList& list) const;
+  double squaredDistance(std::uint32_t node, const glm::dvec3& offset) const;
+  void visit(std::uint32_t node, const glm::dvec3& from, NeighbourList& list) const;
 
   const PositionSet& set_;
   int axes_;
+  glm::dvec3 origin_{ 0.0 };
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> order_;
 };

@@ -68,6 +68,7 @@ private:
     TileWork& work, std::size_t begin, std::size_t end, NeighbourCluster& cluster) const;
   bool compute(TileWork& work, std::uint32_t point, const NeighbourList& list) const;
   double squaredReach(const NeighbourList& list, const glm::dvec3& p) const;
+  double squaredReach(const std::vector<NearPoint>& found) const;
   void note(const glm::dvec3& p, double squaredReach) const;
   Result<void> store(const std::vector<TilePoint>& points, const std::vector<bool>& finished,
     const std::vector<std::byte>& values) const;
@@ -310,6 +311,17 @@ double Search::squaredReach(const NeighbourList& list, const glm::dvec3& p) cons
   return reach * (1.0 + 1e-12);
 }
 
+/// The neighbours that were found so far reach that far.
+double Search::squaredReach(const std::vector<NearPoint>& found) const
+{
+  std::uint32_t count = 0;
+  for (const NearPoint& near : found)
+  {
+    count += near.count;
+  }
+  return count < options_.neighbours ? infinity : found.back().squaredDistance * (1.0 + 1e-12);
+}
+
 /// Values of points[i] that are finished. The own points of a tile came from the sources in blocks,
 /// each in input order: so there are long runs to write at once without a sort.
 Result<void> Search::store(const std::vector<TilePoint>& points, const std::vector<bool>& finished,
@@ -361,13 +373,7 @@ Result<void> Search::finishUnfinished()
   for (std::size_t i = 0; i < unfinished_.size(); ++i)
   {
     points[i] = unfinished_[i].point;
-    std::uint32_t count = 0;
-    for (const NearPoint& near : found[i])
-    {
-      count += near.count;
-    }
-    note(
-      points[i].position, count < options_.neighbours ? infinity : found[i].back().squaredDistance);
+    note(points[i].position, squaredReach(found[i]));
     feature_.compute(points[i].position, found[i], values.data() + i * feature_.bytes());
   }
   crew_.advance(points.size());
@@ -404,10 +410,19 @@ Result<void> Search::searchAgain(std::size_t tile, std::vector<std::vector<NearP
   std::vector<NearPoint> near;
   for (const std::size_t i : visitors)
   {
-    list.begin(references, unfinished_[i].squaredReach);
-    index->search(unfinished_[i].point.position, list);
+    const glm::dvec3& position = unfinished_[i].point.position;
+    // The neighbours from other tiles bring the reach nearer.
+    std::unique_lock<std::mutex> lock(mutex_);
+    const double reach = std::min(unfinished_[i].squaredReach, squaredReach(found[i]));
+    lock.unlock();
+    if (squaredDistanceTo(extent.bounds, position, options_.axes) > reach)
+    {
+      continue;
+    }
+    list.begin(references, reach);
+    index->search(position, list);
     collectNear(references, list, options_.neighbours, near);
-    const std::lock_guard<std::mutex> lock(mutex_);
+    lock.lock();
     merge(found[i], near);
   }
   return {};

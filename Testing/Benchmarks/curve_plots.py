@@ -21,7 +21,7 @@ from matplotlib import pyplot, ticker  # noqa: E402 (the line above decides what
 
 matplotlib.rcParams["svg.hashsalt"] = "pointfront"  # the same file for the same rows
 COLOURS = dict(zip(curve.TECHNIQUES,
-                   ("#999999", "#56b4e9", "#0072b2", "#009e73", "#e69f00", "#d55e00")))
+                   ("#999999", "#cc79a7", "#56b4e9", "#0072b2", "#009e73", "#e69f00", "#d55e00")))
 COSTS = {
     "time": ("a frame of a complete orbit, median, ms", lambda place: place.orbit["frame_p50_ms"]),
     "bytes": ("read for a complete picture, MB", lambda place: place.mean("bytes_read") / 1e6),

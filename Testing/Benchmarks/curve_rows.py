@@ -3,7 +3,7 @@
 import csv
 import statistics
 
-TECHNIQUES = ("points", "discs", "ellipses", "blended", "ewa", "ewa full")
+TECHNIQUES = ("points", "flat discs", "discs", "ellipses", "blended", "ewa", "ewa full")
 PRESETS = ("draft", "balanced", "exact")
 WORDS = ("scene", "view", "structure", "precision", "technique", "state")
 OCTREE = ("octree", "the file's")

@@ -44,6 +44,7 @@ COLUMNS = ("scene view structure precision technique error_px state drawn_error_
            "bloat flicker depth_off_p50 depth_off_p95").split()
 STYLES = {
     "points": {"technique": "points", "size": {"mode": "fixed", "px": 2}},
+    "flat discs": {"technique": "points"},  # drawn without a style
     "discs": {"technique": "splats", "orientation": "view"},
     "ellipses": {"technique": "splats"},
     "blended": {"technique": "splats", "blended": True},

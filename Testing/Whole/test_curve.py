@@ -39,8 +39,9 @@ class Rows(ToolTest):
         [scene] = scenes(["stadium"], TOOL, None, None, self.folder)
         store = scene.store()
         view = next(view for view in scene.views(("far",)))
-        for technique, error_px in (("points", 4), ("discs", 4), ("ellipses", 4), ("blended", 4),
-                                    ("ewa full", 4), ("draft", 2), ("balanced", 1)):
+        for technique, error_px in (("points", 4), ("flat discs", 4), ("discs", 4),
+                                    ("ellipses", 4), ("blended", 4), ("ewa full", 4),
+                                    ("draft", 2), ("balanced", 1)):
             [row] = [row for row in rows if row["view"] == "far" and row["state"] == "complete"
                      and row["technique"] == technique and float(row["error_px"]) == error_px]
             case = {"technique": technique, "error_px": error_px}
@@ -86,6 +87,10 @@ class Told(SharedStoreTest):
         self.assertLessEqual(expected["psnr"][2], max(map(max, ranges)) + 0.1)
         self.assertEqual(sorted(expected["ssim"]), expected["ssim"])
         self.assertLessEqual(expected["share_over_8"][2], 1)
+
+    def test_a_picture_without_a_style_is_expected_to_differ_too(self):
+        told, _ = self.render()
+        self.assertEqual(told["expected"]["technique"], "flat discs")
 
     def test_what_was_not_measured_is_not_told(self):
         for words in (("--technique", "spheres"), ("--error", "40", "--technique", "splats")):

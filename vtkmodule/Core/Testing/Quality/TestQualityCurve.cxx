@@ -81,6 +81,7 @@ TEST(QualityCurve, StylesHaveTheNamesOfItsTechniques)
   style = ResolvedStyle();
   style.size.value = 2.0;
   EXPECT_EQ(nameOf(style), "points");
+  EXPECT_EQ(nameOf(splats(Technique::Points, false, false)), "flat discs") << "without a style";
 }
 
 TEST(QualityCurve, WhatWasNotMeasuredHasNoName)

@@ -51,7 +51,7 @@ std::string techniqueOf(const ResolvedStyle& style)
   {
     const bool measured =
       style.size.mode == SplatSize::Mode::Pixels && style.size.value == measuredPointPx;
-    return measured ? "points" : std::string();
+    return measured ? "points" : closesSurface(style) ? "flat discs" : std::string();
   }
   const bool splats = style.technique == Technique::Splats || style.technique == Technique::Ewa;
   return splats ? splatsOf(style) : std::string();

@@ -19,7 +19,7 @@ namespace pointfront
 /// How points become pixels. The same names in C++, JSON, the tool and ParaView.
 enum class Technique : std::uint8_t
 {
-  Points, ///< squares of a number of pixels
+  Points, ///< squares of a number of pixels; of other sizes flat discs that face the eye
   Splats, ///< discs in object space: ellipses by the normal, paraboloids without one
   Spheres, ///< hemispheres, depth and normal exact in each pixel (LAYERS-5)
   Silhouettes, ///< splats with a rim of its own colour, pushed back in depth (LAYERS-6)

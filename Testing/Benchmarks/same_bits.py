@@ -2,11 +2,14 @@
 """Compares what builds of the tool make, bit by bit: stores, indices, exports, answers, pictures.
 
     Testing/Benchmarks/same_bits.py --work FOLDER TOOL TOOL... [--without PART...]
+    Testing/Benchmarks/same_bits.py --work FOLDER TOOL --write docs/tradeoffs/results.txt
 
 TOOL is a command line: a program; with variables before it (env NAME=VALUE PROGRAM); or one of
 another processor by an emulator (qemu-aarch64-static -L FOLDER PROGRAM). All work on the bundled
 cloud and a made-up one. Prints a line for each thing that the tools make, and ends with 1 where the
 later tools make another than the first. PART leaves out what a tool cannot do: normals, scanlines.
+The file of --write gets the lines of the first tool: tables whose numbers follow from stores and
+pictures are of these (`Whole.SameBits`, `Style.OldTables`).
 """
 
 import argparse
@@ -73,6 +76,15 @@ EXPORTS = {
 FACTS = ("points_drawn", "nodes_drawn", "error_px", "complete")
 
 
+def undated(data):
+    """A LAS file without the day of its creation; what is no LAS file as it is."""
+    return data[:90] + bytes(4) + data[94:] if data[:4] == b"LASF" else data
+
+
+def lines_of(sums):
+    return "".join(f"{digest} {name}\n" for name, digest in sums.items())
+
+
 class Maker:
     """One tool in a folder of its own: a name and a checksum of each thing that it makes."""
 
@@ -87,14 +99,16 @@ class Maker:
         return call(*self.words, *words)
 
     def keep(self, name, data):
-        self.sums[name] = hashlib.sha256(data).hexdigest()[:16]
+        self.sums[name] = hashlib.sha256(undated(data)).hexdigest()[:16]
 
     def path(self, name):
         return self.folder / name
 
     def make_inputs(self):
-        self.tool("generate", "--points", MADE_UP, "-o", self.path("made-up.las"))
-        self.keep("made-up cloud", self.path("made-up.las").read_bytes())
+        cloud = self.path("made-up.las")
+        self.tool("generate", "--points", MADE_UP, "-o", cloud)
+        cloud.write_bytes(undated(cloud.read_bytes()))
+        self.keep("made-up cloud", cloud.read_bytes())
         self.tool("build", CLOUD, "-o", self.path("first.pfront"))
         for ending in ("csv", "ply"):
             self.tool("export", self.path("first.pfront"), "-o", self.path(f"a.{ending}"))
@@ -162,6 +176,7 @@ def main():
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--work", type=pathlib.Path, required=True)
     parser.add_argument("--without", nargs="*", default=[], choices=sorted(NEEDS))
+    parser.add_argument("--write", type=pathlib.Path, metavar="FILE")
     parser.add_argument("tools", nargs="+", metavar="TOOL")
     options = parser.parse_args()
     made = [Maker(shlex.split(tool), options.work / str(number), options.without).make()
@@ -170,6 +185,8 @@ def main():
     for name, digest in made[0].items():
         print(digest, "differs:" if name in wrong else "", name)
     print(f"{len(made[0])} things, {len(wrong)} differ")
+    if options.write:
+        options.write.write_text(lines_of(made[0]))
     return 1 if wrong else 0
 
 

@@ -88,8 +88,19 @@ def table_commands(files):
 
 
 # The programs of each table: a line has the first digits of two SHA-256, those of the table's
-# command and of the programs that the command calls. Testing/Benchmarks/tables writes it.
+# command, and of the programs that the command calls with the results that its numbers follow from.
+# Testing/Benchmarks/tables writes it.
 MADE = "docs/tradeoffs/made.txt"
+# A checksum of each thing that the tool makes of small clouds; Whole.SameBits compares them.
+RESULTS = "docs/tradeoffs/results.txt"
+# Programs whose tables have more than times, and the kinds of results that these follow from.
+FOLLOWS = {
+    "Testing/Benchmarks/truth_tradeoff.py": ("store", "picture"),
+    "Testing/Benchmarks/promise.py": ("store", "picture", "told"),
+    "Testing/Benchmarks/precision_tradeoff.py": ("store", "picture"),
+    "Testing/Benchmarks/refinement_tradeoff.py": ("store", "picture", "told"),
+    "Testing/Benchmarks/flicker.cxx": ("store", "picture"),
+}
 # Tables of docs/tradeoffs/curve.csv are compared with it by Whole.Curve; ages are git's.
 MADE_OTHERWISE = ("curve_tables.py", "--ages")
 
@@ -104,14 +115,25 @@ def programs_of(command):
                               for script, program in CALLED.findall(command)))
 
 
+def results_of(programs, results):
+    """The lines of RESULTS that tables of these programs follow from."""
+    kinds = {kind for path in programs for kind in FOLLOWS.get(path, ())}
+    return [line for line in results.split("\n")
+            if line.partition(" ")[2].partition(":")[0] in kinds]
+
+
 def made_line(command, text_of):
-    """The line of MADE for a table that was made by its programs as they are now."""
-    texts = [text_of(path) for path in programs_of(command)]
+    """The line of MADE for a table that was made by its programs as they are now, of the results
+    that the tool has now."""
+    programs = programs_of(command)
+    texts = [text_of(path) for path in programs]
+    texts += results_of(programs, text_of(RESULTS))
     return f"{digest(command)} {digest(''.join(texts))}"
 
 
 def old_tables(files):
-    """A table of numbers is not older than the programs that its command calls."""
+    """A table of numbers is not older than the programs that its command calls, nor than the
+    stores and pictures that its numbers follow from."""
     text = {file.path: "\n".join(file.lines) for file in files}
     made = text.get(MADE, "").split("\n")
     for file in files:
@@ -119,5 +141,6 @@ def old_tables(files):
             marked = COMMAND.match(line)
             if marked and not any(word in marked.group(1) for word in MADE_OTHERWISE) \
                     and made_line(marked.group(1), lambda path: text.get(path, "")) not in made:
-                yield file.path, number, "a table that is older than the program that makes it: " \
-                    "make it anew by Testing/Benchmarks/tables (or --still), or take it away"
+                yield file.path, number, "a table that is older than its program or than what " \
+                    "the tool makes: make it anew by Testing/Benchmarks/tables (or --still), or " \
+                    "take it away"

@@ -270,6 +270,16 @@ class RulesTest(unittest.TestCase):
             tree = {"README.md": f"<!-- table: {command} -->\n" + rows + end,
                     "Testing/Benchmarks/a.py": source, doc_rules.MADE: f"{fresh}\n"}
             self.assertEqual(self.faults("OldTables", tree), faults)
+        command = "Testing/Benchmarks/promise.py x"
+        program, picture = "print(1)", "1 picture: ewa"
+        fresh = f"{doc_rules.digest(command)} {doc_rules.digest(program + picture)}"
+        for results, faults in (([picture, "2 index"], []), ([picture, "3 index"], []),
+                                (["4 picture: ewa", "2 index"], [("README.md", 1)])):
+            tree = {"README.md": f"<!-- table: {command} -->\n" + rows + end,
+                    "Testing/Benchmarks/promise.py": program,
+                    doc_rules.RESULTS: "\n".join(results) + "\n",
+                    doc_rules.MADE: f"{fresh}\n"}
+            self.assertEqual(self.faults("OldTables", tree), faults)
 
     def test_contraction(self):
         compiled = {"a.cxx": "c++ -O3 -ffp-contract=off -c a.cxx", "b.cxx": "c++ -O3 -c b.cxx",

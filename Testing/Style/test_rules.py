@@ -421,7 +421,8 @@ class RulesTest(unittest.TestCase):
         for line, fault in (("Whole[.]Longer Whole.Short", "no test is called"),
                             ("Whole[.]Long", "name the tests"),
                             ("Whole[.]Long Whole.Shorter", "there is no test"),
-                            ("Whole[.].* Whole.Short", "is left out itself")):
+                            ("Whole[.].* Whole.Short", "is left out itself"),
+                            ("(W)(h)(o)(l)(e)[.](L)(o)(n)(g) Suite", "9 groups")):
             found = list(quick_tests.faults(line + "\n", tests))
             self.assertEqual(len(found), 1, found)
             self.assertIn(fault, found[0])

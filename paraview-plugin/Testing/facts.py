@@ -86,6 +86,9 @@ points, error, limit = view()
 print(points, error, limit)
 require(0 < points < POINTS and 0.01 < error < 3.01 and limit == "nothing", limit)
 technique = display.Technique
+told = display.SMProxy.GetProperty("ExpectedDifference").GetElement(0)
+print(told)
+require(technique == "points" and " dB, " in told, f"as it is without a style: {told}")
 for quality, word in (("draft", " dB, "), ("custom", "not measured")):
     display.Quality = quality
     display.Technique = "splats" if quality == "draft" else "spheres"

@@ -7,7 +7,7 @@ namespace pointfront
 
 /// An exact search by a kd-tree over two or three axes. Each node has the box of its places: a
 /// search from far away, over water say, leaves out all that only a plane of the tree would let in.
-/// Memory   16 bytes a place, up to 24.
+/// Memory   10 to 16 bytes a place.
 /// Threads  immutable; the set must live as long as the index.
 class KdIndex final : public NeighbourIndex
 {

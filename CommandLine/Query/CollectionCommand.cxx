@@ -8,9 +8,7 @@
 
 #include "pointfront/Base/PrintableText.h"
 #include "pointfront/Disk/ByteOpeners.h"
-#include "pointfront/Disk/Epoch.h"
 #include "pointfront/Export/OutputTarget.h"
-#include "pointfront/Store/StoreFormat.h"
 #include "pointfront/Tiles/CollectionCloud.h"
 #include "pointfront/Tiles/TileFormat.h"
 
@@ -44,14 +42,6 @@ bool named(const std::string& path, const std::string& ending)
 {
   return path.size() > ending.size() &&
     path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
-}
-
-/// A fault of a collection's file, with what mends a collection in the place of a store's advice.
-std::string advised(std::string fault, const std::string& advice)
-{
-  const std::string stores = buildAgain;
-  const std::size_t at = fault.rfind(stores);
-  return at == std::string::npos ? fault : fault.replace(at, stores.size(), advice);
 }
 
 /// The tiles that an argument stands for: those of a folder, a list or a pattern, or itself; and
@@ -129,8 +119,7 @@ nlohmann::ordered_json tileJson(const CollectedTile& tile)
   return object;
 }
 /// The faults of the file, and the tiles that are missing or others. Cancelled.
-Result<std::vector<std::string>> faultsOf(
-  const CollectionCloud& cloud, const std::string& path, const std::string& progress)
+Result<std::vector<std::string>> faultsOf(const CollectionCloud& cloud, const std::string& progress)
 {
   ProgressDisplay display(*ProgressDisplay::styleOf(progress));
   const Result<VerifyReport> heads = cloud.verifyHeads(display.function());
@@ -141,10 +130,7 @@ Result<std::vector<std::string>> faultsOf(
   std::vector<std::string> faults;
   if (!heads->ok)
   {
-    const std::string file = EpochAddress::of(path).file;
-    faults.push_back(advised(heads->firstError,
-      isAddress(file) ? "upload the collection again"
-                      : "make its heads anew: pointfront collection compact " + file));
+    faults.push_back(heads->firstError);
   }
   for (const std::size_t t : cloud.tileNumbers())
   {
@@ -351,9 +337,8 @@ Result<void> CollectionCommand::verify() const
   constexpr std::size_t mostNamed = 10;
   const auto cloud = CollectionCloud::open(path_);
   const Result<std::vector<std::string>> found = cloud
-    ? faultsOf(**cloud, path_, progress_)
-    : Result<std::vector<std::string>>(
-        std::vector<std::string>{ advised(cloud.error().what, "create the collection again") });
+    ? faultsOf(**cloud, progress_)
+    : Result<std::vector<std::string>>(std::vector<std::string>{ cloud.error().what });
   if (!found)
   {
     return found.error();

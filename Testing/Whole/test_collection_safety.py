@@ -26,20 +26,23 @@ def spent_by(process):
 
 class CollectionSafety(CollectionTest):
     def test_a_damaged_collection_is_told_what_mends_it(self):
-        self.collection("create", self.city, self.tile(0))
+        store = self.tile(0)
+        self.collection("create", self.city, store)
         sound = self.city.read_bytes()
-        for at, advice in ((len(sound) // 2, f"pointfront collection compact {self.city}"),
-                           (len(sound) - 100, "create the collection again")):
+        for at, commands, mends in (
+                (len(sound) // 2, (("collection", "verify"),), ("compact", self.city)),
+                (len(sound) - 100, (("collection", "verify"), ("info",), ("verify",)),
+                 ("create", self.city, store, "--force"))):
             damaged = bytearray(sound)
             damaged[at] ^= 0xff
             self.city.write_bytes(damaged)
-            said = self.refuse(1, "collection", "verify", self.city)
-            self.assertIn("is damaged", said.err)
-            self.assertIn(advice, said.err)
-            self.assertNotIn("build the store again", said.err)
-            if "compact" in advice:
-                self.collection("compact", self.city)
-                self.assertTrue(self.collection("verify", self.city)["ok"])
+            for words in commands:
+                said = self.refuse(1, *words, self.city)
+                self.assertIn("is damaged", said.err)
+                self.assertIn("pointfront collection compact, or create", said.err)
+                self.assertNotIn("build the store again", said.err)
+            self.collection(*mends)
+            self.assertTrue(self.collection("verify", self.city)["ok"])
 
     def test_a_full_disk_leaves_the_state_before(self):
         tiles = [self.tile(number) for number in range(4)]

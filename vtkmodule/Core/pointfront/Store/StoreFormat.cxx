@@ -12,6 +12,15 @@ namespace pointfront
 {
 namespace
 {
+/// A damaged store is built again, a damaged collection is made of its tiles.
+std::string adviceOf(const std::string& path)
+{
+  return path.find(".pfcollection") == std::string::npos
+    ? "copy the file again or build the store again"
+    : "copy the file again or make it of its tiles: pointfront collection compact, or create where "
+      "that cannot read the file";
+}
+
 constexpr std::size_t footerFixedBytes = 24;
 constexpr std::size_t sectionEntryBytes = 24;
 constexpr std::uint32_t maxSections = 64;
@@ -79,7 +88,7 @@ Result<void> checkHeader(
   {
     return makeError(Error::Kind::Truncated,
       "'" + path + "' has " + std::to_string(fileBytes) + " bytes of " +
-        std::to_string(header.fileBytes) + "; copy the file again or " + buildAgain);
+        std::to_string(header.fileBytes) + "; " + adviceOf(path));
   }
   if (fileBytes > header.fileBytes)
   {
@@ -116,8 +125,8 @@ const MetadataRecord* collectionRecordIn(const std::vector<MetadataRecord>& meta
 Error corruptStore(const std::string& path, std::uint64_t offset, const std::string& what)
 {
   return makeError(Error::Kind::Corrupt,
-    "'" + path + "' is damaged: " + what + " (byte " + std::to_string(offset) +
-      "); copy the file again or " + buildAgain);
+    "'" + path + "' is damaged: " + what + " (byte " + std::to_string(offset) + "); " +
+      adviceOf(path));
 }
 
 std::vector<std::byte> encodeHeader(const StoreHeader& header)
@@ -164,7 +173,7 @@ Result<StoreHeader> decodeHeader(
   {
     return makeError(Error::Kind::Truncated,
       "'" + path + "' has " + std::to_string(size) + " bytes, less than a store's header of " +
-        std::to_string(storeHeaderBytes) + "; copy the file again or " + buildAgain);
+        std::to_string(storeHeaderBytes) + "; " + adviceOf(path));
   }
   ByteReader in(data + storeMagic.size(), storeHeaderBytes - storeMagic.size());
   StoreHeader header;

@@ -94,9 +94,6 @@ constexpr const char* collectionOwner = "pointfront";
 constexpr std::uint16_t collectionId = 2;
 const MetadataRecord* collectionRecordIn(const std::vector<MetadataRecord>& metadata);
 
-/// How the advice of errors ends that a damaged store gives. Damaged collections have other advice.
-inline constexpr const char* buildAgain = "build the store again";
-
 /// "'x.pfront' is damaged: <what> (byte <offset>); <advice>".
 Error corruptStore(const std::string& path, std::uint64_t offset, const std::string& what);
 

@@ -81,13 +81,13 @@ struct RefiningStyle
 const RefiningStyle closingDiscs{ "closing_discs", Technique::Splats, SplatSize::Mode::Spacing,
   1.0 };
 const RefiningStyle refiningStyles[] = {
-#if !defined(__SANITIZE_THREAD__) // the same threads whatever they draw: two ways to draw there
   { "squares", Technique::Points, SplatSize::Mode::Pixels, 2.0 },
+#if !defined(__SANITIZE_THREAD__) // the same threads whatever they draw: two ways to draw there
   { "spheres_in_metres", Technique::Spheres, SplatSize::Mode::World, 0.4 },
   closingDiscs,
   { "closing_spheres", Technique::Spheres, SplatSize::Mode::Spacing, 1.0 },
-#endif
   { "discs_in_pixels", Technique::Splats, SplatSize::Mode::Pixels, 3.0 },
+#endif
   { "closing_ewa", Technique::Ewa, SplatSize::Mode::Spacing, 1.0 },
 };
 

@@ -1,3 +1,4 @@
+#include "Sanitizers.h"
 #include "StoreBuildTest.h"
 
 #include "pointfront/Trees/KdCut.h"
@@ -113,6 +114,10 @@ TEST_F(KdTreeBuild, SameBytesForAnyThreadsAndMemory)
   EXPECT_TRUE(built(4, 1u << 30, nullptr) == reference);
   EXPECT_TRUE(built(2, 500 << 10, nullptr) == reference);
   EXPECT_GT(spilled, 0u);
+  if (test::underSanitizer())
+  {
+    return; // it would see the same in the other builds, and take seconds for each
+  }
   EXPECT_TRUE(built(3, 900 << 10, nullptr) == reference);
   const Bounds tiny{ glm::dvec3(0.0), glm::dvec3(0.001) };
   const Bounds huge{ glm::dvec3(-1e6), glm::dvec3(1e6) };

@@ -1,6 +1,7 @@
 // Rows of paged tables take their turn with all else that is read: one read at a time, on the
 // scheduler's threads, and nobody who draws waits for them.
 
+#include "Sanitizers.h"
 #include "TerrainReader.h"
 
 #include "pointfront/Front/RenderFront.h"
@@ -139,7 +140,7 @@ TEST(TableRows, AStoreGoesWhileItsPageHangs)
 
 TEST(TableRows, ManyStoresReadTheirTablesOneAtATimeOnTheSharedThreads)
 {
-  constexpr std::size_t stores = 100;
+  const std::size_t stores = test::underSanitizer() ? 12 : 100;
   const auto traffic = std::make_shared<Traffic>();
   const auto scheduler = schedulerOf(3, std::chrono::minutes(10));
   std::vector<std::unique_ptr<Cloud>> clouds;

@@ -27,6 +27,11 @@ from ._version import __version__
 INTERRUPTED = 130  # an exit status
 TRIES = 10  # workers that may die under a step
 RETRIES = 2  # times a step is done again that a signal ended
+# Dask watches each of its processes many times a second, for a dashboard that this command does not
+# show: a tenth of two cores. A step takes seconds, in a process of its own.
+QUIET = {"distributed.worker.profile.enabled": False,
+         "distributed.admin.tick.interval": "500ms",
+         "distributed.admin.system-monitor.interval": "10s"}
 
 
 def parser():
@@ -301,6 +306,7 @@ def _client(chosen):
     if chosen.scheduler:
         logging.disable(logging.ERROR)  # Dask logs tracebacks of what main() says in one line
         return distributed.Client(chosen.scheduler, timeout=20), None
+    dask.config.set(QUIET)
     workers = chosen.local or max(1, (os.cpu_count() or 2) // 2)
     cluster = distributed.LocalCluster(
         n_workers=workers, threads_per_worker=1, processes=True, memory_limit=0,

@@ -1,5 +1,6 @@
 """`python3 -m pointfront cluster build`: the bytes of `build --tiles`, by workers that may die."""
 
+import argparse
 import contextlib
 import hashlib
 import json
@@ -315,6 +316,19 @@ class Cluster(unittest.TestCase):
                 started = True
         self.assertTrue(started)
         self.assertEqual(signal.getsignal(signal.SIGTERM), signal.SIG_DFL)
+
+    def test_workers_of_this_machine_are_not_watched_for_a_dashboard(self):
+        import dask
+        import distributed  # noqa: F401 (brings its settings)
+
+        known = dask.config.merge(*dask.config.defaults)
+        for name in _cluster.QUIET:
+            self.assertIsNotNone(dask.config.get(name, config=known), name)
+        client, cluster = _cluster._client(argparse.Namespace(scheduler=None, local=1))
+        with cluster, client:
+            quiet = _cluster.QUIET  # travels with the function, which finds no module of tests
+            seen, = client.run(lambda: {name: dask.config.get(name) for name in quiet}).values()
+        self.assertEqual(seen, _cluster.QUIET)
 
     def test_a_step_that_fails_is_told_and_logged(self):
         self.tool("build", self.inputs, "-o", self.land, "--tiles", *OPTIONS)

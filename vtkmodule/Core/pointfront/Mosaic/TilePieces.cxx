@@ -1,5 +1,6 @@
 #include "pointfront/Mosaic/TilePieces.h"
 
+#include "pointfront/Base/RawBytes.h"
 #include "pointfront/Disk/SpillFile.h"
 #include "pointfront/Neighbourhood/CellHistogram.h"
 
@@ -18,7 +19,7 @@ constexpr std::uint64_t leastToHold = std::uint64_t(512) << 20;
 /// The part of a chunk that lies in the box: positions, then column after column.
 struct Piece
 {
-  std::vector<std::byte> held; ///< empty: the bytes are in the file
+  RawBytes held; ///< empty: the bytes are in the file
   std::uint64_t offset = 0;
   std::uint64_t points = 0;
   std::uint64_t own = 0;
@@ -116,8 +117,8 @@ public:
     const AttributeSchema& schema = description_.schema;
     batch.resize(piece.points, schema);
     thread_local std::vector<std::byte> bytes; // kept: new memory is cleared first
-    const std::byte* from = piece.held.data();
-    if (piece.held.empty())
+    const std::byte* from = piece.held.data.get();
+    if (piece.held.size == 0)
     {
       bytes.resize(std::max(bytes.size(), piece.points * bytesOfPoint(schema)));
       if (Result<void> done =
@@ -280,29 +281,45 @@ private:
     const AttributeSchema& schema = source.description().schema;
     kept.leaveOnly(batch, schema);
     piece.points = kept.points();
-    thread_local std::vector<std::byte> bytes;
-    bytes.clear();
-    bytes.reserve(piece.points * bytesOfPoint(schema));
-    const auto* positions = reinterpret_cast<const std::byte*>(batch.positions.data());
-    bytes.insert(bytes.end(), positions, positions + piece.points * sizeof(glm::dvec3));
-    for (const std::vector<std::byte>& column : batch.columns)
-    {
-      bytes.insert(bytes.end(), column.begin(), column.end());
-    }
-    return bytes.empty() ? Result<void>() : keep(piece, bytes);
+    return piece.points == 0 ? Result<void>() : keep(piece, batch, schema);
   }
 
   /// In memory as long as there is some left, then in the file.
-  Result<void> keep(Piece& piece, const std::vector<std::byte>& bytes)
+  Result<void> keep(Piece& piece, const PointBatch& batch, const AttributeSchema& schema)
   {
-    if (held_.fetch_add(bytes.size()) + bytes.size() <= holdAtMost_)
+    const std::size_t size = piece.points * bytesOfPoint(schema);
+    thread_local std::vector<std::byte> bytes; // on their way to the file
+    const bool held = held_.fetch_add(size) + size <= holdAtMost_;
+    if (held)
     {
-      piece.held = std::vector<std::byte>(bytes.begin(), bytes.end()); // no larger than they are
+      piece.held = RawBytes(size);
+    }
+    else
+    {
+      held_ -= size;
+      bytes.resize(size);
+    }
+    std::byte* const begin = held ? piece.held.data.get() : bytes.data();
+    std::byte* to = begin;
+    const auto put = [&to](const void* from, std::size_t count)
+    {
+      if (count > 0)
+      {
+        std::memcpy(to, from, count);
+        to += count;
+      }
+    };
+    put(batch.positions.data(), piece.points * sizeof(glm::dvec3));
+    for (const std::vector<std::byte>& column : batch.columns)
+    {
+      put(column.data(), column.size());
+    }
+    if (held)
+    {
       return {};
     }
-    held_ -= bytes.size();
-    piece.offset = end_.fetch_add(bytes.size());
-    return file_.write(piece.offset, bytes.data(), bytes.size());
+    piece.offset = end_.fetch_add(size);
+    return file_.write(piece.offset, begin, size);
   }
 
   const TileInputs& inputs_;

@@ -232,7 +232,7 @@ class Exports(ToolTest):
             out, _ = self.export(store, f"{name}.las")
             self.assertEqual(out.read_bytes()[6] & 1, 1, name)
         folder = self.folder / "tiles"
-        outcome = self.succeed("build", empty, standard, "-o", folder, "--tiles", "--tile", "50")
+        outcome = self.succeed("build", empty, standard, "-o", folder, "--tiles", "--tile", "1000")
         self.assertNotIn("GPS", outcome.err)
         city, = folder.glob("*.pfcollection")
         out, _ = self.export(city, "city.las")

@@ -14,4 +14,10 @@ inline bool underSanitizer()
   return __asan_init != nullptr || __tsan_init != nullptr;
 }
 
+/// Whether it runs under ThreadSanitizer, which needs the same threads once and is the slowest.
+inline bool underThreadSanitizer()
+{
+  return __tsan_init != nullptr;
+}
+
 } // namespace pointfront::test

@@ -135,9 +135,9 @@ TEST_F(StoreBuild, SameBytesForAnyThreadsAndMemory)
   const auto [spilledNot, reference] = build(1, 1u << 30);
   EXPECT_EQ(spilledNot, 0u);
   EXPECT_GT(reference.size(), 100000u);
-  // A sanitizer sees the same in fewer builds, and takes seconds for each.
+  // ThreadSanitizer takes seconds for each build, and sees the same threads in fewer.
   using Numbers = std::vector<unsigned>;
-  const bool few = test::underSanitizer();
+  const bool few = test::underThreadSanitizer();
   for (const unsigned threads : few ? Numbers{ 4 } : Numbers{ 2, 4 })
   {
     EXPECT_TRUE(build(threads, 1u << 30).second == reference) << threads << " threads";

@@ -140,7 +140,7 @@ TEST(TableRows, AStoreGoesWhileItsPageHangs)
 
 TEST(TableRows, ManyStoresReadTheirTablesOneAtATimeOnTheSharedThreads)
 {
-  const std::size_t stores = test::underSanitizer() ? 12 : 100;
+  const std::size_t stores = test::underThreadSanitizer() ? 12 : 100;
   const auto traffic = std::make_shared<Traffic>();
   const auto scheduler = schedulerOf(3, std::chrono::minutes(10));
   std::vector<std::unique_ptr<Cloud>> clouds;

@@ -25,6 +25,7 @@ from ._steps import LOGS, POLL, place
 from ._version import __version__
 
 INTERRUPTED = 130  # an exit status
+CONNECT = 20  # seconds until a scheduler that does not answer is given up
 TRIES = 10  # workers that may die under a step
 RETRIES = 2  # times a step is done again that a signal ended
 # Dask watches each of its processes many times a second, for a dashboard that this command does not
@@ -305,7 +306,7 @@ def _client(chosen):
                      "distributed.scheduler.worker-saturation": 1.0})  # no step waits at a worker
     if chosen.scheduler:
         logging.disable(logging.ERROR)  # Dask logs tracebacks of what main() says in one line
-        return distributed.Client(chosen.scheduler, timeout=20), None
+        return distributed.Client(chosen.scheduler, timeout=CONNECT), None
     dask.config.set(QUIET)
     workers = chosen.local or max(1, (os.cpu_count() or 2) // 2)
     cluster = distributed.LocalCluster(

@@ -76,14 +76,14 @@ class BucketBuild(unittest.TestCase):
         self.environment |= self.server.environment()
         self.environment |= {"POINTFRONT_CACHE": "off", "TMPDIR": str(self.root)}
 
-    def begun(self, *more, output=PLACE, **environment):
+    def begun(self, *more, output=PLACE, workers=1, **environment):
         return subprocess.Popen(
-            [*COMMAND, str(self.inputs), "-o", output, *OPTIONS, "--local", "2", *more],
+            [*COMMAND, str(self.inputs), "-o", output, *OPTIONS, "--local", str(workers), *more],
             stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, start_new_session=True,
             env={**self.environment, **environment})
 
-    def build(self, *more, status=0, **environment):
-        process = self.begun(*more, **environment)
+    def build(self, *more, status=0, workers=1, **environment):
+        process = self.begun(*more, workers=workers, **environment)
         out, said = process.communicate(timeout=240)
         self.assertEqual(process.returncode, status, said)
         return out if status == 0 else said
@@ -93,7 +93,7 @@ class BucketBuild(unittest.TestCase):
                 if method in ("PUT", "POST") and key.endswith(ending)]
 
     def test_two_workers_give_the_bytes_of_a_folder(self):
-        told = json.loads(self.build("--json"))
+        told = json.loads(self.build("--json", workers=2))
         self.assertEqual(told["collection"], f"{PLACE}/land.pfcollection")
         self.assertEqual(digests(self.server.objects), self.expected)
         keys = [key for method, key in self.server.requests if method == "PUT"]

@@ -123,8 +123,12 @@ class Cluster(unittest.TestCase):
         self.build("--scheduler", address, "--threads", "1")
         self.assertEqual(tree(self.land), self.expected)
         self.end(processes)
-        said = self.build("--scheduler", address, status=1).stderr
-        self.assertIn("pointfront cluster build: ", said)
+        gone = self.patched("_cluster.CONNECT = 2", address)
+        self.assertEqual(gone.wait(60), 1)
+        said = gone.stderr.read()
+        self.assertTrue(said.startswith("pointfront cluster build: "), said)
+        self.assertIn(address, said)
+        gone.stderr.close()
 
     def scheduler(self, port=0, workers=2, bare=()):
         """A scheduler and workers, each a process of its own, as a cluster has them: the processes

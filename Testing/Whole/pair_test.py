@@ -18,7 +18,7 @@ class PairTest(ToolTest):
                 self.addCleanup(pair.close)
                 self.assertIsNone(pair.difference(case))
 
-    def check(self, kind, usual=20):
+    def check(self, kind, usual=40):
         """`usual`: how many cases, where the environment does not say it."""
         pair, begin, drawn = kind(self.folder), time.monotonic(), 0
         self.addCleanup(pair.close)

@@ -222,7 +222,7 @@ class BucketBuild(unittest.TestCase):
             return None
 
         self.server.before = weather
-        process = self.begun()
+        process = self.begun(workers=2)  # the other one is at work, too
         process.communicate(timeout=240)
         self.assertEqual(process.returncode, -signal.SIGKILL)
         time.sleep(0.3)

@@ -143,7 +143,7 @@ class Cluster(unittest.TestCase):
             env=without if "scheduler" in bare else None)]
         self.addCleanup(self.end, processes)
         end = time.monotonic() + 60
-        while not place.exists():
+        while not place.exists() or not place.stat().st_size:  # it is made, and then written
             self.assertIsNone(processes[0].poll())
             self.assertLess(time.monotonic(), end)
             time.sleep(0.05)
@@ -222,7 +222,9 @@ class Cluster(unittest.TestCase):
                     if any(word.startswith("tile:") for word in step.cmdline()):
                         step.parent().kill()
                         killed += 1
-                        step.wait(10)
+                        # Dead, if not yet reaped: the next try may be over when somebody does it.
+                        while step.status() != psutil.STATUS_ZOMBIE:
+                            time.sleep(0.005)
             time.sleep(0.005)
         self.assertEqual(process.wait(180), 0, process.stderr.read())
         process.stderr.close()
